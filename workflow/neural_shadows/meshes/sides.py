@@ -18,31 +18,27 @@ def sides_by_edges(faces, count):
         sides: (3 F,) int32, those of a vertex by their other ends, those of an edge by k and f.
         others: (3 F,) int32, the other ends.
     """
-    firsts = np.zeros(count + 2, np.int64)
+    # Counted twice, by the other ends first: a hub of many edges needs no sort of its own.
+    starts, firsts = np.zeros(count + 1, np.int64), np.zeros(count + 2, np.int64)
     for f in range(len(faces)):
         for k in range(3):
-            firsts[min(faces[f, k], faces[f, (k + 1) % 3]) + 2] += 1
-    firsts = np.cumsum(firsts)
-    sides, others = np.empty(3 * len(faces), np.int32), np.empty(3 * len(faces), np.int32)
+            a, b = faces[f, k], faces[f, (k + 1) % 3]
+            starts[max(a, b) + 1] += 1
+            firsts[min(a, b) + 2] += 1
+    starts, firsts = np.cumsum(starts), np.cumsum(firsts)
+    by_others, sides = np.empty(3 * len(faces), np.int32), np.empty(3 * len(faces), np.int32)
+    others = np.empty(3 * len(faces), np.int32)
     for k in range(3):
         for f in range(len(faces)):
-            a, b = faces[f, k], faces[f, (k + 1) % 3]
-            at = firsts[min(a, b) + 1]
-            sides[at], others[at] = 3 * f + k, max(a, b)
-            firsts[min(a, b) + 1] += 1
-    for vertex in range(count):
-        start, end = firsts[vertex], firsts[vertex + 1]
-        if end - start > 64:
-            order = np.argsort(others[start:end], kind="mergesort")
-            sides[start:end] = sides[start:end][order]
-            others[start:end] = others[start:end][order]
-            continue
-        for n in range(start + 1, end):  # by insertion
-            side, other, to = sides[n], others[n], n
-            while to > start and others[to - 1] > other:
-                sides[to], others[to] = sides[to - 1], others[to - 1]
-                to -= 1
-            sides[to], others[to] = side, other
+            other = max(faces[f, k], faces[f, (k + 1) % 3])
+            by_others[starts[other]] = 3 * f + k
+            starts[other] += 1
+    for side in by_others:
+        f, k = side // 3, side % 3
+        a, b = faces[f, k], faces[f, (k + 1) % 3]
+        at = firsts[min(a, b) + 1]
+        sides[at], others[at] = side, max(a, b)
+        firsts[min(a, b) + 1] += 1
     return firsts[:-1], sides, others
 
 

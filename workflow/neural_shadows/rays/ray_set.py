@@ -75,5 +75,7 @@ def _gather(indices, shard, labels, origins, bounds):
     """Gather the rays of a shard; its first has index 0."""
     for i in range(len(indices)):
         if 0 <= indices[i] < len(shard):
-            origins[i] = shard[indices[i]]
-            bounds[i] = labels[indices[i]]
+            for axis in range(3):  # assigning rows takes numba a second to compile
+                origins[i, axis] = shard[indices[i], axis]
+            for end in range(2):
+                bounds[i, end] = labels[indices[i], end]

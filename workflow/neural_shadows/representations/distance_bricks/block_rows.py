@@ -138,7 +138,7 @@ def project_rows(rows, any_in, all_in, to, passing, within, spans):
         cells, tiles = (part + a) * width, a * words
         for k in range(tiles, tiles + words):
             passing[k] = within[k] = 0
-        spans[a] = words, 0, 0
+        spans[a, 0], spans[a, 1], spans[a, 2] = words, 0, 0
         start, stop = _next_run(any_in, cells, width, 0)
         while start < stop:
             j, j_end = max(first_tile(start, to), 0), min(last_tile(stop - 1, to) + 1, columns)

@@ -216,7 +216,8 @@ def _by_layers(bricks, merged, axes, back, left_out):
     for n in range(total):
         to = following[unsorted[n, 0]]
         following[unsorted[n, 0]] += 1
-        coordinates[to] = unsorted[n, 1:]
+        for column in range(3):
+            coordinates[to, column] = unsorted[n, 1 + column]
     return coordinates, layers
 
 

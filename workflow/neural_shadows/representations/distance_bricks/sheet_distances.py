@@ -104,7 +104,7 @@ def _touch(corners, grid, first, last, cells):
                 i, j, k = x % BRICK, y % BRICK, z % BRICK
                 bit = np.uint64(1) << np.uint64(BRICK**2 * i + BRICK * j + k)
                 if brick >= 0 and cells[brick] & bit == 0:
-                    if touches(corners - np.array([x + 0.5, y + 0.5, z + 0.5]), _HALF):
+                    if touches(corners, x + 0.5, y + 0.5, z + 0.5, _HALF):
                         cells[brick] |= bit
 
 

@@ -44,33 +44,53 @@ def _mark_touched(vertices, faces, slack, touched):
     half = size / 2 * slack
     first = np.empty(3, np.int64)
     last = np.empty(3, np.int64)
-    centre = np.empty(3)
+    corners, low, high = np.empty((3, 3)), np.empty(3), np.empty(3)
     for f in range(len(faces)):
-        corners = vertices[faces[f]]
+        take_corners(vertices, faces[f], corners, low, high)
         for axis in range(3):
-            low, high = corners[:, axis].min(), corners[:, axis].max()
-            first[axis] = max(0, int(np.floor((low + 1 - (half - size / 2)) / size)))
-            last[axis] = min(n - 1, int(np.floor((high + 1 + (half - size / 2)) / size)))
+            first[axis] = max(0, int(np.floor((low[axis] + 1 - (half - size / 2)) / size)))
+            last[axis] = min(n - 1, int(np.floor((high[axis] + 1 + (half - size / 2)) / size)))
         for x in range(first[0], last[0] + 1):
-            centre[0] = (x + 0.5) * size - 1
             for y in range(first[1], last[1] + 1):
-                centre[1] = (y + 0.5) * size - 1
                 for z in range(first[2], last[2] + 1):
-                    centre[2] = (z + 0.5) * size - 1
                     if not touched[x, y, z]:
-                        touched[x, y, z] = touches(corners - centre, half)
+                        cx, cy, cz = (
+                            (x + 0.5) * size - 1,
+                            (y + 0.5) * size - 1,
+                            (z + 0.5) * size - 1,
+                        )
+                        touched[x, y, z] = touches(corners, cx, cy, cz, half)
+
+
+# Below rows are filled by loops: as slices and with np.cross the file took 3.6 s to compile.
+@njit(cache=True, nogil=True)
+def take_corners(vertices, face, corners, low, high):
+    """Fill in a triangle's corners (3, 3) and the ends of its bounding box (3,)."""
+    for axis in range(3):
+        for i in range(3):
+            corners[i, axis] = vertices[face[i], axis]
+        low[axis] = min(corners[0, axis], corners[1, axis], corners[2, axis])
+        high[axis] = max(corners[0, axis], corners[1, axis], corners[2, axis])
 
 
 @njit(cache=True, nogil=True)
-def touches(corners, half):
-    """Test a triangle (3, 3) against a centred cube.
+def touches(triangle, x, y, z, half):
+    """Test a triangle (3, 3) against a cube about a point.
 
     The cube has this half side. The triangle's bounding box must already overlap it.
     """
-    edges = corners[np.array([1, 2, 0])] - corners
-    if _separates(np.cross(edges[0], edges[1]), corners, half):
+    corners, edges, axis = np.empty((3, 3)), np.empty((3, 3)), np.empty(3)
+    for i in range(3):
+        corners[i, 0], corners[i, 1] = triangle[i, 0] - x, triangle[i, 1] - y
+        corners[i, 2] = triangle[i, 2] - z
+    for i in range(3):
+        for k in range(3):
+            edges[i, k] = corners[(i + 1) % 3, k] - corners[i, k]
+    for k in range(3):  # the normal
+        a, b = (k + 1) % 3, (k + 2) % 3
+        axis[k] = edges[0, a] * edges[1, b] - edges[0, b] * edges[1, a]
+    if _separates(axis, corners, half):
         return False
-    axis = np.empty(3)
     for i in range(3):
         for k in range(3):
             axis[k] = 0

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from neural_shadows.representations.voxels.occupancy import SLACK, touches
+from neural_shadows.representations.voxels.occupancy import SLACK, take_corners, touches
 
 BRICK_LEVELS = 2  # a brick's 4³ voxels are two levels of an octree, and one word of 64 bits
 MOST_LEVELS = 12  # 4096 voxels an axis
@@ -46,11 +46,9 @@ def _descend(vertices, faces, levels):
     count = 0
     # Stack of nodes: level, Morton code, and position in cells of that level.
     stack = np.empty((8 * MOST_LEVELS, 5), np.int64)
-    centre = np.empty(3)
+    centre, corners, low, high = np.empty(3), np.empty((3, 3)), np.empty(3), np.empty(3)
     for f in range(len(faces)):
-        corners = vertices[faces[f]]
-        low = np.array([corners[:, k].min() for k in range(3)])
-        high = np.array([corners[:, k].max() for k in range(3)])
+        take_corners(vertices, faces[f], corners, low, high)
         stack[0] = 0
         height = 1
         while height:
@@ -74,7 +72,7 @@ def _descend(vertices, faces, levels):
                 apart = False
                 for k in range(3):
                     apart |= low[k] > centre[k] + half or high[k] < centre[k] - half
-                if apart or not touches(corners - centre, half):
+                if apart or not touches(corners, centre[0], centre[1], centre[2], half):
                     continue
                 if level + 1 == levels:
                     bit = np.uint64(code * 8 + child & 63)
