@@ -1,3 +1,4 @@
+import shutil
 import subprocess
 
 from checkout import ROOT
@@ -29,6 +30,21 @@ def test_a_folder_within_another_repository_is_no_checkout_of_it(tmp_path):
     git(tmp_path, "commit", "--quiet", "--allow-empty", "-m", "first")
     (tmp_path / "copy").mkdir()
     assert commit_of(tmp_path / "copy") == "not a git checkout"
+
+
+def test_an_archive_has_its_commit(tmp_path):
+    """As a release's download, by the files of this checkout."""
+    for name in (".gitattributes", "workflow/COMMIT"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        shutil.copy(ROOT / name, tmp_path / name)
+    git(tmp_path, "init", "--quiet")
+    git(tmp_path, "add", ".")
+    git(tmp_path, "commit", "--quiet", "-m", "first")
+    git(tmp_path, "archive", "--output", "archive.tar", "HEAD")
+    shutil.unpack_archive(tmp_path / "archive.tar", tmp_path / "archive")
+    assert commit_of(tmp_path / "archive") == git(tmp_path, "rev-parse", "HEAD")
+    shutil.copy(ROOT / "workflow/COMMIT", tmp_path / "archive/workflow/COMMIT")  # not filled in
+    assert commit_of(tmp_path / "archive") == "not a git checkout"
 
 
 def test_what_made_a_result(monkeypatch, tmp_path):

@@ -21,7 +21,8 @@ def describe_origin() -> dict[str, Any]:
 def commit_of(folder: Path) -> str:
     """Git commit of a folder, with a note on uncommitted changes.
 
-    A folder within another repository is not a checkout of that.
+    A folder within another repository is not a checkout of that. An archive of a commit and a
+    container have it in `workflow/COMMIT`.
     """
     git = ["git", "-C", str(folder), "describe", "--always", "--exclude=*", "--abbrev=40"]
     ceiling = {"GIT_CEILING_DIRECTORIES": str(folder.resolve().parent)}
@@ -33,4 +34,6 @@ def commit_of(folder: Path) -> str:
             text=True,
         ).strip()
     except (OSError, subprocess.CalledProcessError):
-        return "not a git checkout"
+        archived = folder / "workflow/COMMIT"
+        commit = archived.read_text(encoding="utf-8").strip() if archived.is_file() else ""
+        return commit if commit.isalnum() else "not a git checkout"
