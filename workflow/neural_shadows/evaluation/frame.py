@@ -1,22 +1,20 @@
 """Frames of either kind, for tuning and evaluation.
 
 A frame is a view of a scene in its unit sphere under a sun (`views`), or an image of a scene in metres
-under an area light of several radii (`measured_frames`). Each module has the functions of
-`FrameKind`, and the one of its metrics `metrics`, of a frame, a method's visibility, a radius by number
-and image metrics by name. None is imported by a statement, so that a result depends on its own
-kind's alone.
+under an area light of several radii (`measured_frames`). Both modules have the same
+functions, and frames of the same methods: `errors_of` returns sums of errors (radii, settings, terms of
+`ERRORS`), and their divisor. The modules of metrics have `metrics`, of a frame, a method's visibility, a
+radius by number and image metrics by name. None is imported by a statement, so that a result depends on
+its own kind's alone.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
-from typing import Protocol
 
-import numpy as np
-
-from neural_shadows.evaluation.method import Constants, Method
+from neural_shadows.evaluation.method import Constants
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.settings.records import SceneSettings
 
@@ -24,34 +22,6 @@ from neural_shadows.settings.records import SceneSettings
 KIND = "views", "measured_frames"
 METRICS = "view_metrics", "frame_metrics"
 TIMES = "time_views", "time_frames"
-
-
-class Frame(Protocol):
-    """A frame under one light, or one of several radii."""
-
-    path: Path  # of its file
-    number: int  # in the file
-    scene_name: str
-
-    def visibilities(self, method: Method, constants: Sequence[Constants]) -> Iterator[np.ndarray]:
-        """The method's visibility by radius."""
-
-    def errors_of(
-        self, method: Method, tried: Sequence[Sequence[Constants]]
-    ) -> tuple[np.ndarray, float]:
-        """Sums of errors, and their divisor.
-
-        Sums are (radii, settings, terms) of `ERRORS`.
-
-        Args:
-            tried: the settings of each radius, equally many.
-        """
-
-    def key(self, radius: int) -> dict[str, str | int]:
-        """Columns of its metrics, see `metric_files`."""
-
-    def stored(self, visibility: np.ndarray, radius: int) -> dict[str, np.ndarray]:
-        """What is stored of a visibility, by name; see `answers`."""
 
 
 @dataclass(frozen=True)
@@ -83,25 +53,6 @@ class Inputs:
     precision: str = "auto"
     threads: int = 1
     by_scene: bool = False
-
-
-class FrameKind(Protocol):
-    """Module of a kind of frames."""
-
-    ERRORS: tuple[str, ...]
-    """Names of the terms of errors in tuning, whose sum is least at the best constants."""
-
-    def count_frames(self, paths: Sequence[Path]) -> int:
-        """Frames in files."""
-
-    def count_radii(self, path: Path) -> int:
-        """Radii of the light in a file."""
-
-    def open_frames(self, inputs: Inputs) -> Iterator[Frame]:
-        """Frames and sequences, in order."""
-
-    def open_methods(self, key: str, inputs: Inputs) -> Callable[[str], Method | None]:
-        """Method of a key by scene; None for no answer."""
 
 
 def module_of(names: tuple[str, str], views: bool) -> ModuleType:

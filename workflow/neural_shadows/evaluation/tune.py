@@ -3,10 +3,11 @@
 from collections.abc import Sequence
 from itertools import product
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 
-from neural_shadows.evaluation.frame import KIND, FrameKind, Inputs, are_views, module_of
+from neural_shadows.evaluation.frame import KIND, Inputs, are_views, module_of
 from neural_shadows.evaluation.method import Constants, Method
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.running.origin import describe_origin
@@ -47,7 +48,7 @@ def tune(
     """
     settings = {"device": device, "precision": precision, "threads": threads}
     inputs = Inputs(frames, meshes, weights, fields=fields, scene=scene, **settings)
-    kind: FrameKind = module_of(KIND, are_views(frames))
+    kind = module_of(KIND, are_views(frames))
     tuned = kind.open_methods(method, inputs)(None)
     candidates = {name: list(values) for name, values in tuned.constants.items()}
     middle = {name: values[len(values) // 2] for name, values in candidates.items()}
@@ -75,7 +76,7 @@ def tune(
 
 
 def _errors(
-    kind: FrameKind,
+    kind: ModuleType,
     inputs: Inputs,
     method: Method,
     tried: Sequence[Sequence[Constants]],
