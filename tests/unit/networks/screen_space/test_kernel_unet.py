@@ -192,5 +192,3 @@ def test_kernels_without_a_base_are_refused():
         KernelUnet("kernels", TINY, FOUR)
     with pytest.raises(ValueError, match="there is base_msm and base_pcf"):
         KernelUnet("kernels", TINY, [*EIGHT, "base_pcf"])
-    with pytest.raises(ValueError, match="'kernel' is not among kernels, direct"):
-        KernelUnet("kernel", TINY, EIGHT)

@@ -56,8 +56,3 @@ def test_levels_are_those_of_table_s2():
         assert result["macs"] * PIXELS / 1e9 == pytest.approx(compute, abs=0.005)
         assert result["weights"] / 1e3 == pytest.approx(weights, abs=0.05)
         assert result["storage"] * PIXELS / 1e6 == pytest.approx(storage, rel=0.003)
-
-
-def test_an_unknown_form_is_refused():
-    with pytest.raises(ValueError, match="'hal' is not among full, shuffle, half, original"):
-        convolutions("hal", [4, 8], 4)

@@ -2,25 +2,15 @@
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import torch
 from torch import Tensor
 
 from neural_shadows.frames.feature_names import channels_of
 from neural_shadows.networks.screen_space.shadow_unet import ShadowUnet
+from neural_shadows.networks.settings.screen_space import BEHIND
 
-BEHIND = "behind"
 DARKEST = 1 / 256  # lower bound in logarithms; not in the text
-
-
-def trimmed_network(*, answer: str = "visibility", **settings: Any) -> ShadowUnet:
-    """A trimmed network of visibility or of an exponent.
-
-    Raises:
-        KeyError, TypeError, ValueError: a missing, unknown or wrong argument.
-    """
-    return {"visibility": ShadowUnet, "exponent": ExponentUnet}[answer](**settings)
 
 
 class ExponentUnet(ShadowUnet):
@@ -32,14 +22,9 @@ class ExponentUnet(ShadowUnet):
 
     Args:
         features: see `ShadowUnet`; with `behind`.
-
-    Raises:
-        ValueError: without `behind`.
     """
 
-    def __init__(self, form: str, widths: Sequence, features: Sequence[str], **settings: Any):
-        if BEHIND not in features:
-            raise ValueError(f"features: {list(features)}: no {BEHIND!r}, which an exponent needs")
+    def __init__(self, form: str, widths: Sequence, features: Sequence[str], **settings):
         super().__init__(form, widths, features, **settings)
         self._behind = channels_of(features[: features.index(BEHIND)])
 

@@ -48,7 +48,7 @@ class KernelUnet(ScreenNetwork):
     Its norms use running statistics, except in training, inside `chunk_statistics`.
 
     Raises:
-        KeyError, ValueError: unknown form, feature or ends, or not exactly one base.
+        KeyError, ValueError: unknown feature or ends, or not exactly one base.
     """
 
     def __init__(

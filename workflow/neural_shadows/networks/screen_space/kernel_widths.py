@@ -5,17 +5,32 @@ Counts as in `widths.py`.
 """
 
 from collections.abc import Sequence
+from typing import Any
 
+from neural_shadows.frames.feature_names import channels_of
 from neural_shadows.networks.screen_space.widths import Convolution
+from neural_shadows.networks.settings.screen_space import UnetOfSums
 
-FORMS = ("kernels", "direct")
 FIRST_LEVELS = {"half": 1, "full": 0}  # by the resolution of a network's ends
 KERNEL_TAPS = 25  # of a kernel
 _BEFORE_LAST = 16  # channels before the direct form's output
 
 
+def convolutions(settings: UnetOfSums) -> list[Convolution]:
+    """All convolutions of a form, in order of computation."""
+    chosen = settings.model_dump(include={"form", "widths", "filters", "ends"})
+    return kernel_convolutions(**chosen, channels=channels_of(settings.features))
+
+
+def network(settings: UnetOfSums) -> Any:
+    """A network of kernels or of visibility."""
+    from neural_shadows.networks.screen_space.kernel_unet import KernelUnet
+
+    return KernelUnet(**settings.model_dump())
+
+
 def kernel_convolutions(
-    form: str, widths: Sequence[int], channels: int, filters: int, ends: str = "half"
+    form: str, widths: Sequence[int], channels: int, filters: int = 0, ends: str = "half"
 ) -> list[Convolution]:
     """All convolutions of a network, in order of computation.
 
@@ -26,10 +41,8 @@ def kernel_convolutions(
         ends: one of `FIRST_LEVELS`; of the direct form `half`.
 
     Raises:
-        KeyError, ValueError: unknown ends or form.
+        KeyError: unknown ends.
     """
-    if form not in FORMS:
-        raise ValueError(f"form {form!r} is not among {', '.join(FORMS)}")
     first = FIRST_LEVELS[ends]
     down, up = [Convolution(1, "encoder", 1, 4 * channels, widths[0])], []
     if ends == "full":  # a level like the others

@@ -69,7 +69,7 @@ class ShadowUnet(ScreenNetwork):
     whatever format the weights have, see `in_format`.
 
     Raises:
-        KeyError, ValueError: unknown form, pool or feature.
+        KeyError: unknown pool or feature.
     """
 
     def __init__(

@@ -1,11 +1,10 @@
 """Neural Shadow Mapping's trimmed network, full size (Datta et al. 2022, 3.5)."""
 
-from typing import Any, Literal
+from typing import Literal
 
 from pydantic import Field
 
-from neural_shadows.frames.feature_names import channels_of
-from neural_shadows.networks.screen_space import widths as counts
+from neural_shadows.networks.screen_space.trimmed import convolutions, network
 from neural_shadows.networks.settings.screen_space import Channels, Trimmed
 
 
@@ -18,14 +17,3 @@ class Settings(Trimmed):
     extraction: Channels | None = Field(
         None, description="hidden channels of a learned reduction of the features to four"
     )
-
-
-def convolutions(settings: Settings) -> list[counts.Convolution]:
-    channels = channels_of(settings.features)
-    return counts.convolutions("full", settings.widths, channels, settings.extraction)
-
-
-def network(settings: Settings) -> Any:
-    from neural_shadows.networks.screen_space.exponent_unet import trimmed_network
-
-    return trimmed_network(**settings.model_dump())

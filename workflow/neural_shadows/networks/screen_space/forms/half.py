@@ -1,11 +1,10 @@
 """The trimmed network at half the resolution (Datta et al. 2022, 3.5)."""
 
-from typing import Any, Literal
+from typing import Literal
 
 from pydantic import Field
 
-from neural_shadows.frames.feature_names import channels_of
-from neural_shadows.networks.screen_space import widths as counts
+from neural_shadows.networks.screen_space.trimmed import convolutions, network
 from neural_shadows.networks.settings.screen_space import Trimmed
 
 
@@ -13,14 +12,3 @@ class Settings(Trimmed):
     """The trimmed network over frames of half the resolution."""
 
     form: Literal["half"] = Field(description="`half`, frames of half the resolution")
-
-
-def convolutions(settings: Settings) -> list[counts.Convolution]:
-    channels = channels_of(settings.features)
-    return counts.convolutions("half", settings.widths, channels)
-
-
-def network(settings: Settings) -> Any:
-    from neural_shadows.networks.screen_space.exponent_unet import trimmed_network
-
-    return trimmed_network(**settings.model_dump())

@@ -1,12 +1,11 @@
 """Kernel Predicting Neural Shadow Maps (Hu et al. 2025)."""
 
-from typing import Any, Literal
+from typing import Literal
 
 from pydantic import Field, field_validator, model_validator
 
-from neural_shadows.frames.feature_names import GUIDE, base_of, channels_of
-from neural_shadows.networks.screen_space.kernel_widths import kernel_convolutions
-from neural_shadows.networks.screen_space.widths import Convolution
+from neural_shadows.frames.feature_names import GUIDE, base_of
+from neural_shadows.networks.screen_space.kernel_widths import convolutions, network
 from neural_shadows.networks.settings.screen_space import UnetOfSums
 
 
@@ -44,14 +43,3 @@ class Settings(UnetOfSums):
         if self.edge is not None and GUIDE not in self.features:
             raise ValueError(f"edge: needs the feature {GUIDE!r}. Add it to `features`")
         return self
-
-
-def convolutions(settings: Settings) -> list[Convolution]:
-    channels, ends = channels_of(settings.features), settings.ends
-    return kernel_convolutions("kernels", settings.widths, channels, settings.filters, ends)
-
-
-def network(settings: Settings) -> Any:
-    from neural_shadows.networks.screen_space.kernel_unet import KernelUnet
-
-    return KernelUnet(**settings.model_dump())

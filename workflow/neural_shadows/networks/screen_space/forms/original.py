@@ -1,11 +1,10 @@
 """Neural Shadow Mapping's network before trimming (Datta et al. 2022, S4.1)."""
 
-from typing import Any, Literal
+from typing import Literal
 
 from pydantic import Field
 
-from neural_shadows.frames.feature_names import channels_of
-from neural_shadows.networks.screen_space import widths as counts
+from neural_shadows.networks.screen_space.trimmed import convolutions, network
 from neural_shadows.networks.settings.screen_space import AnyScreenNetwork, Channels
 
 
@@ -16,14 +15,3 @@ class Settings(AnyScreenNetwork):
     widths: list[Channels] = Field(
         min_length=2, max_length=8, description="channels of each level, from the finest"
     )
-
-
-def convolutions(settings: Settings) -> list[counts.Convolution]:
-    channels = channels_of(settings.features)
-    return counts.convolutions("original", settings.widths, channels)
-
-
-def network(settings: Settings) -> Any:
-    from neural_shadows.networks.screen_space.shadow_unet import ShadowUnet
-
-    return ShadowUnet(**settings.model_dump())
