@@ -38,4 +38,4 @@ def test_a_method_of_buffers_answers_frames_without_a_scene(monkeypatch):
     method = Method(of_buffers=lambda *buffers: None)
     monkeypatch.setitem(names.METHODS, "mine", method)
     assert method.answers_frames and not method.answers_views
-    assert not names.needs_scene("mine") and names.needs_scene("pcss")
+    assert not method.needs_scene and names.METHODS["pcss"].needs_scene

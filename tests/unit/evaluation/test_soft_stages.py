@@ -16,7 +16,7 @@ from neural_shadows.evaluation.answers import read_answer
 from neural_shadows.evaluation.measured_frames import measured_frames
 from neural_shadows.evaluation.method import Method
 from neural_shadows.evaluation.metric_files import read_metrics
-from neural_shadows.evaluation.registry import is_tuned
+from neural_shadows.evaluation.registry import METHODS
 from neural_shadows.evaluation.time_frames import medians
 from neural_shadows.evaluation.time_methods import time_methods
 from neural_shadows.evaluation.tune import tune as tune_stage
@@ -83,14 +83,14 @@ def test_no_other_value_of_the_last_constant_is_better(folder):
 def evaluate(folder, method):
     target = folder / "frames"
     target.mkdir(exist_ok=True)
-    if is_tuned(method):
+    if METHODS[method].constants:
         tune(folder, method)
     evaluate_frames(
         [folder / "test_000.json"],
         folder / "lpips.json",
         (target / f"{method}.csv", target / f"{method}.npz"),
         sequences=[folder / "camera_000.json", folder / "light_000.json"],
-        constants=folder / f"{method}.json" if is_tuned(method) else None,
+        constants=folder / f"{method}.json" if METHODS[method].constants else None,
         method=method,
     )
     return read_metrics([target / f"{method}.csv"])

@@ -12,7 +12,7 @@ from neural_shadows.errors import InputError
 from neural_shadows.evaluation.answers import name_of
 from neural_shadows.evaluation.frame import Inputs
 from neural_shadows.evaluation.method import Constants, Method, visibility
-from neural_shadows.evaluation.registry import METHODS, is_network, needs_fields
+from neural_shadows.evaluation.registry import frame_method, is_network
 from neural_shadows.files.arrays import open_array
 from neural_shadows.frames.buffers import LIT
 from neural_shadows.frames.draw_settings import light_map_of
@@ -220,10 +220,10 @@ def open_methods(key: str, inputs: Inputs) -> Callable[[str], Method | None]:
     Raises:
         InputError: a file of weights or fields cannot be read.
     """
-    if needs_fields(key):
+    if frame_method(key).fields:
         import_module(_FIELDS).take_stored(inputs.fields)
     if not is_network(key):
-        return lambda scene: METHODS[key]
+        return lambda scene: frame_method(key)
     network = import_module(_NETWORK)
     if not network.computes_in(inputs.precision):
         return lambda scene: None

@@ -110,6 +110,11 @@ class Method:
         inputs = self.answer, self.of_buffers, self.channel, self.constant
         return any(each is not None for each in inputs)
 
+    @property
+    def needs_scene(self) -> bool:
+        """Check for the need of more than a frame's buffers."""
+        return self.answer is not None and self.of_buffers is None
+
     def of_view(self, frame: "GBuffer", scene: "Scene | None", **settings) -> OfBias:
         """Visibility of a view at any depth bias; settings: of `sun`."""
         if self.constant is None:

@@ -131,36 +131,14 @@ def family_look(family: str) -> Look:
     return METHODS[family].look or _FAMILIES[family].LOOK
 
 
-def is_tuned(method: str) -> bool:
-    """Check for constants chosen on validation frames."""
-    return not is_network(method) and bool(METHODS[method].constants)
-
-
-def tuned_as(method: str) -> str:
-    """Key of a method's constants: mostly its own."""
-    return method if is_network(method) else METHODS[method].tuned_as or method
-
-
-def needs_fields(method: str) -> bool:
-    """Check for the need of fields fitted to a scene's objects."""
-    return not is_network(method) and METHODS[method].fields
-
-
-def needs_scene(method: str) -> bool:
-    """Check for the need of more than a frame's buffers."""
-    if is_network(method):
-        return False
-    return METHODS[method].answer is not None and METHODS[method].of_buffers is None
-
-
-def rays_of(method: str) -> int | None:
-    """Rays a pixel of a plain ray tracer; None for others."""
-    return None if is_network(method) else METHODS[method].rays
+def frame_method(key: str) -> Method:
+    """The method of a key on frames; of a network one without entries."""
+    return METHODS.get(key, Method())
 
 
 def available(method: str) -> bool:
     """Check for the package of a method, if it needs one."""
-    package = None if is_network(method) else METHODS[method].package
+    package = frame_method(method).package
     return package is None or find_spec(package) is not None
 
 

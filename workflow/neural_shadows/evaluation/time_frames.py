@@ -12,7 +12,7 @@ import numpy as np
 from neural_shadows.evaluation.frame import Inputs
 from neural_shadows.evaluation.measured_frames import MeasuredFrame, open_frames, open_methods
 from neural_shadows.evaluation.method import Method, visibility
-from neural_shadows.evaluation.registry import tuned_as
+from neural_shadows.evaluation.registry import frame_method
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.running.progress import progress_bar
@@ -48,7 +48,8 @@ def times(
         record["method"]: [each["constants"] for each in record["radii"]]
         for record in map(read_json, constants)
     }
-    chosen = {name: tuned.get(tuned_as(name), [{}] * len(radii)) for name in methods}
+    untuned = [{}] * len(radii)
+    chosen = {name: tuned.get(frame_method(name).tuned_as or name, untuned) for name in methods}
     trained = {path.parent.name: path for path in inputs.weights}
     opened = {
         name: open_methods(name, replace(inputs, weights=[trained[n]] if n else []))(None)

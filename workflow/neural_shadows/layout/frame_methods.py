@@ -6,11 +6,9 @@ from neural_shadows.evaluation.registry import (
     FORMATS,
     FRAME_METHODS,
     LABELS,
+    frame_method,
     in_format,
     is_network,
-    is_tuned,
-    needs_fields,
-    tuned_as,
 )
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.paths import ALL
@@ -18,15 +16,16 @@ from neural_shadows.layout.paths import ALL
 
 def chosen(layout: Layout, frame_set: str, method: str) -> list[str]:
     """File of a method's constants, if it has some."""
-    if not is_tuned(method):
+    tuned = frame_method(method)
+    if not tuned.constants:
         return []
-    return [layout.paths.constants(frame_set, tuned_as(method), ALL)]
+    return [layout.paths.constants(frame_set, tuned.tuned_as or method, ALL)]
 
 
 def fields(layout: Layout, frame_set: str, method: str) -> list[str]:
     """File of a method's fields, if needed and available."""
     own = layout.frames(frame_set)["path"] is not None
-    return [layout.paths.soft_fields(frame_set)] if needs_fields(method) and not own else []
+    return [layout.paths.soft_fields(frame_set)] if frame_method(method).fields and not own else []
 
 
 def occluders(layout: Layout, frame_set: str, method: str) -> list[str]:

@@ -4,7 +4,7 @@ from typing import Any
 
 from pydantic import Field
 
-from neural_shadows.evaluation.registry import FRAME_METHODS, needs_scene
+from neural_shadows.evaluation.registry import FRAME_METHODS, frame_method
 from neural_shadows.frames.feature_names import TRACED, buffers_of
 from neural_shadows.rendering.light_shape import SPHERE
 from neural_shadows.sections.any_report import AnyTable, Chapter
@@ -84,7 +84,7 @@ class MethodsTable(FramesTable):
             check_among(f"{key}.methods", method, names)
             if methods.count(method) > 1:
                 raise ValueError(f"{key}.methods: {method!r} is listed twice. List it once")
-            if own and needs_scene(method):
+            if own and frame_method(method).needs_scene:
                 bases = ", ".join(name for name, base in FRAME_METHODS.items() if base.channel)
                 raise ValueError(
                     f"{key}.methods: {method!r} needs the scene's geometry, and a user's own frames have "

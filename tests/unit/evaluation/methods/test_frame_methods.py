@@ -13,9 +13,7 @@ from neural_shadows.evaluation.registry import (
     LABELS,
     METHODS,
     NETWORK_LOOK,
-    is_tuned,
     look_of,
-    tuned_as,
 )
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.rendering.soft_shadows import soft_visibility
@@ -102,9 +100,8 @@ def test_no_two_methods_or_looks_are_taken_for_each_other():
 
 def test_constants_are_those_of_the_first_of_a_kind():
     for key, method in FRAME_METHODS.items():
-        assert is_tuned(key) == bool(method.constants)
-        assert METHODS[tuned_as(key)].constants == method.constants
-        assert tuned_as(tuned_as(key)) == tuned_as(key)
+        first = METHODS[method.tuned_as or key]
+        assert first.constants == method.constants and not first.tuned_as
 
 
 @pytest.fixture(scope="module")

@@ -20,7 +20,7 @@ from neural_shadows.evaluation.measure_sensitivity import measure_sensitivity
 from neural_shadows.evaluation.measured_frames import measured_frames, open_methods
 from neural_shadows.evaluation.method import visibility
 from neural_shadows.evaluation.metric_files import read_metrics
-from neural_shadows.evaluation.registry import is_network, is_tuned
+from neural_shadows.evaluation.registry import is_network
 from neural_shadows.evaluation.time_methods import time_methods
 from neural_shadows.frames.buffers import LIT
 from neural_shadows.frames.feature_names import NSM_FEATURES
@@ -134,7 +134,7 @@ def test_what_is_timed_is_what_is_evaluated(folder, tmp_path, form):
 
 
 def test_it_is_measured_as_others_are(folder):
-    assert is_network("tiny") and not is_tuned("tiny")
+    assert is_network("tiny")
     out = folder / "tiny.csv", folder / "tiny.npz"
     parts = [folder / "blinds/test_000.json"], [folder / "blinds/light_000.json"]
     weights = folder / "tiny/weights.safetensors"

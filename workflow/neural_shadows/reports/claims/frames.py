@@ -8,7 +8,7 @@ from typing import TypedDict
 import numpy as np
 import pandas as pd
 
-from neural_shadows.evaluation.registry import UNLEARNED, is_network, rays_of
+from neural_shadows.evaluation.registry import UNLEARNED, frame_method, is_network
 from neural_shadows.frames.feature_names import BASES
 from neural_shadows.layout import tables
 from neural_shadows.layout.layout import Layout
@@ -81,9 +81,9 @@ class SoftTable:
 
     def rays_within(self, milliseconds: float, radius: int | None) -> str | None:
         """The most rays in a time, if any."""
-        rays = [name for name in self.labels if rays_of(name)]
-        fitting = [name for name in rays if self.milliseconds(name, radius) <= milliseconds]
-        return max(fitting, key=rays_of, default=None)
+        rays = {name: frame_method(name).rays for name in self.labels}
+        fitting = [n for n in rays if rays[n] and self.milliseconds(n, radius) <= milliseconds]
+        return max(fitting, key=rays.get, default=None)
 
 
 def soft_values(metrics: pd.DataFrame) -> pd.DataFrame:

@@ -9,7 +9,7 @@ import pandas as pd
 from pydantic import Field
 
 from neural_shadows.evaluation.null_predictors import NULL
-from neural_shadows.evaluation.registry import tuned_as
+from neural_shadows.evaluation.registry import frame_method
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.layout import tables
 from neural_shadows.layout.layout import Layout
@@ -125,7 +125,8 @@ def table(
         "KiB": numbers(table["bytes"] / 1024, "{:,.0f}"),
     }
     records = {record["method"]: record for record in map(read_json, soft_constants)}
-    chosen = {name: records[tuned_as(name)] for name in labels if tuned_as(name) in records}
+    tuned = {name: frame_method(name).tuned_as or name for name in labels}
+    chosen = {name: records[key] for name, key in tuned.items() if key in records}
     scenes, frames = [*errors["scene"].unique()], table["frames"].iloc[0]
     parts = (
         f"Mean over {frames} frames of {about['width']} × {about['height']} in {len(scenes)} scenes "
