@@ -8,7 +8,6 @@ import numpy as np
 from neural_shadows.evaluation.answers import flicker_name
 from neural_shadows.evaluation.measured_frames import MeasuredFrame
 from neural_shadows.evaluation.method import Constants, Method
-from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.metrics.registry import measure
 from neural_shadows.rendering.reprojection import looked_up, seen_before
 
@@ -73,31 +72,18 @@ def _answered(
 
     The last is None at first. A method with a history runs through all frames in turn.
     """
-    history = None
-    points_before: list[np.ndarray | None] = []  # of the current frame
-    waiting: list[SoftFrame] = []
-    before = None
+    step = before = None
     for now in frames:
         k = now.middle
         radius, chosen = now.part.radii[k], constants[k]
         seen, points = _seen(before, now) if before else (None, None)
         if method.sequence is None:
-            yield now, now.answered(method, radius, chosen), seen
+            image = now.answered(method, radius, chosen)
         else:
-            waiting.append(now.frame)
-            points_before.append(points)
-            if history is None:
-                history = method.sequence(
-                    _taken(waiting), radius, was=_taken(points_before), **chosen
-                )
-            yield now, now.frame.surface.image(next(history), 1.0), seen
+            step = step or method.sequence(radius, **chosen)
+            image = now.frame.surface.image(step(now.frame, points), 1.0)
+        yield now, image, seen
         before = now
-
-
-def _taken(waiting: list[Any]) -> Iterator[Any]:
-    """Pop items of a growing list."""
-    while waiting:
-        yield waiting.pop(0)
 
 
 def _seen(before: MeasuredFrame, now: MeasuredFrame) -> tuple[Seen, np.ndarray]:

@@ -1,6 +1,6 @@
 """A shadow method: its answers, constants, label and look."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -55,8 +55,8 @@ class Method:
         rays: of a pixel, of a plain ray tracer.
         null: a null predictor, which a network must beat.
         look: if not its family's.
-        sequence: of a sequence of frames, if it has a history: of the frames, the radius, where
-            points were before (`was`) and the constants, the visibilities of each frame in turn.
+        sequence: of the radius and the constants, if it has a history: a function of the next frame
+            of a sequence and its points' previous positions, visibilities (n,).
         texel_floats: float32 numbers in a texel of its light map; 0 for none.
         held: of a frame, bytes in memory of the scene's data beside the triangles.
         of_radius: visibility depends on the light's radius.
@@ -87,7 +87,7 @@ class Method:
     rays: int | None = None
     null: bool = False
     look: Look | None = None
-    sequence: Callable[..., Iterator[np.ndarray]] | None = None
+    sequence: "Callable[..., Callable[[SoftFrame, np.ndarray | None], np.ndarray]] | None" = None
     texel_floats: int = 1
     held: "Callable[[SoftFrame], int] | None" = None
     of_radius: bool = True

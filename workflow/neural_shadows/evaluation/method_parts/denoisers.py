@@ -1,9 +1,8 @@
 """Denoisers of visibility images from few rays a pixel."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache, partial
-from itertools import repeat
+from functools import cache, lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -63,31 +62,30 @@ def denoised(
     return smooth.ravel()[frame.surface.pixel]
 
 
-def denoised_sequence(
-    frames: Iterable[SoftFrame],
-    radius: float,
-    *,
-    samples: int,
-    denoiser: str,
-    was: Iterable[np.ndarray | None] | None = None,
-    **constants: float,
-) -> Iterator[np.ndarray]:
-    """Rays of consecutive frames, then a denoiser's temporal filter. (n,) float32 each.
+def sequence_denoiser(
+    radius: float, *, samples: int, denoiser: str, **constants: float
+) -> Callable[[SoftFrame, np.ndarray | None], np.ndarray]:
+    """Rays of consecutive frames, then a denoiser's temporal filter.
 
     Args:
         radius, samples, denoiser: see `denoised`.
-        frames: with increasing numbers. was: of each, its points' previous positions, (n, 3), if
-            anything moved.
+
+    Returns:
+        Of the next frame, of a larger number, and its points' previous positions (n, 3), None if
+        nothing moved: visibility (n,) float32.
     """
-    kind, temporal = BY_KEY[denoiser], None
-    for frame, points in zip(frames, repeat(None) if was is None else was):
-        surface = frame.surface
+    kind = BY_KEY[denoiser]
+    temporal = cache(partial(kind.temporal, **constants))
+
+    def step(frame: SoftFrame, was: np.ndarray | None) -> np.ndarray:
         if radius == 0:
-            yield ray_traced(frame, radius, samples=samples)
-            continue
-        temporal = temporal or kind.temporal(surface.height, surface.width, **constants)
+            return ray_traced(frame, radius, samples=samples)
+        surface = frame.surface
         pictures = kind.pictures(frame, radius, samples)
-        yield temporal.next_frame(*pictures, surface, points).ravel()[surface.pixel]
+        filter_ = temporal(surface.height, surface.width)
+        return filter_.next_frame(*pictures, surface, was).ravel()[surface.pixel]
+
+    return step
 
 
 def _depth_and_normal(surface: Surface) -> tuple[np.ndarray, np.ndarray]:

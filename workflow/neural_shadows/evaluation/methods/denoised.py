@@ -79,10 +79,10 @@ def _visibility(*of_frame, **settings):
     return denoised(*of_frame, **settings)
 
 
-def _sequence(*of_frames, **settings):
-    from neural_shadows.evaluation.method_parts.denoisers import denoised_sequence
+def _sequence(radius, **settings):
+    from neural_shadows.evaluation.method_parts.denoisers import sequence_denoiser
 
-    return denoised_sequence(*of_frames, **settings)
+    return sequence_denoiser(radius, **settings)
 
 
 METHODS = {
