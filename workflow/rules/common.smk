@@ -35,17 +35,16 @@ from neural_shadows.config.reading import check_files, read_config
 from neural_shadows.config.resolved import resolved
 from neural_shadows.config.targets import check_targets
 from neural_shadows.errors import InputError
-from neural_shadows.evaluation.registry import REFERENCES, method_modules
+from neural_shadows.evaluation.registry import REFERENCES, method_modules, unbiased
 from neural_shadows.layout import evaluations, frame_methods, frame_sets, kinds, parts
 from neural_shadows.layout import previews, sun_hours, tables, trainings, viewers
 from neural_shadows.layout.layout import Layout
-from neural_shadows.networks.kind_module import form_module, kind_module
+from neural_shadows.networks.kind_module import form_module
 from neural_shadows.reports.claims import inputs as claims
 from neural_shadows.reports.costs.plan import plan
 from neural_shadows.reports.page import targets
 from neural_shadows.reports.runs import inputs as runs
 from neural_shadows.running.module_graph import digest, modules_of
-from neural_shadows.scenes.generated import generator_module
 from neural_shadows.training.checkpoints import remove_finished
 
 # numba caches kernels by the age of their own file: a kernel that calls one of another, edited module
@@ -166,25 +165,14 @@ def of(function):
     return with_signature(value_of)
 
 
-def code(stage, encodings=(), generators=(), forms=(), modules=()):
+def code(stage, modules=()):
     """A param: a digest of the modules behind a stage's result.
 
-    Modules imported by name are included only for the jobs that use them: of networks by kind, of
-    screen-space networks by form, of scenes by generator, of methods for soft shadows by key, and
-    other `modules`.
-
-    As inputs, a hundred modules and more would be checked by the scheduler for each ready job.
+    Those imported by name, of networks, scenes or methods, are `modules`: only the jobs that use them
+    depend on them. As inputs, a hundred modules and more would be checked by the scheduler for each
+    ready job.
     """
-    sources = [
-        STAGES / f"{stage}.py",
-        *map(kind_module, encodings),
-        *map(form_module, forms),
-    ]
-    sources += [
-        *map(generator_module, generators),
-        *modules,
-    ]
-    return digest_of(frozenset(sources))
+    return digest_of(frozenset([STAGES / f"{stage}.py", *modules]))
 
 
 @functools.cache

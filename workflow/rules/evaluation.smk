@@ -40,7 +40,7 @@ rule render_references:
     params:
         code=code(
             "evaluation/render_references",
-            modules=method_modules([REFERENCES[LAYOUT.views.reference]]),
+            method_modules([REFERENCES[LAYOUT.views.reference]]),
         ),
         scene=setting("scenes/{scene}/scene"),
         frames=setting("scenes/{scene}/frames"),
@@ -70,7 +70,7 @@ rule tune:
     params:
         code=lambda wildcards: code(
             "evaluation/tune",
-            **evaluations.modules(
+            evaluations.modules(
                 LAYOUT, "tune", wildcards.frame_set, [wildcards.method]
             ),
         ),
@@ -100,7 +100,8 @@ rule query_network:
         gpu=lambda wildcards: GPUS * LAYOUT.can_use_gpu(wildcards.method),
     params:
         code=lambda wildcards: code(
-            "evaluation/query_network", LAYOUT.method_encodings(wildcards.method)
+            "evaluation/query_network",
+            LAYOUT.network_modules([unbiased(wildcards.method)]),
         ),
         bias=of(LAYOUT.bias),
         violations=of(claims.counts_violations),
@@ -131,7 +132,7 @@ rule evaluate:
     params:
         code=lambda wildcards: code(
             "evaluation/evaluate",
-            **evaluations.modules(
+            evaluations.modules(
                 LAYOUT, "evaluate", wildcards.frame_set, [wildcards.method]
             ),
         ),
@@ -161,7 +162,7 @@ rule time_methods:
     params:
         code=lambda wildcards: code(
             "evaluation/time_methods",
-            **evaluations.timed_modules(LAYOUT, wildcards.table, wildcards.group),
+            evaluations.timed_modules(LAYOUT, wildcards.table, wildcards.group),
         ),
         settings=of(evaluations.timed_settings),
     message:
@@ -211,8 +212,7 @@ rule fit_fields:
         **usual(4000, minutes=60),
     params:
         code=lambda wildcards: code(
-            "evaluation/fit_fields",
-            generators=frame_sets.all_generators(LAYOUT, wildcards.frame_set),
+            "evaluation/fit_fields", frame_sets.generators(LAYOUT, wildcards.frame_set)
         ),
     message:
         "Fitting fields to the objects of {wildcards.frame_set}"
@@ -238,8 +238,7 @@ rule measure_frames:
     params:
         code=lambda wildcards: code(
             "evaluation/measure_frames",
-            generators=frame_sets.all_generators(LAYOUT, wildcards.frame_set),
-            modules=frame_sets.light_shapes(LAYOUT, wildcards.frame_set),
+            frame_sets.modules(LAYOUT, wildcards.frame_set),
         ),
     message:
         "Measuring {wildcards.measure} of the frames of {wildcards.frame_set}"
@@ -266,7 +265,7 @@ rule answer_frames:
     params:
         code=lambda wildcards: code(
             "reports/answers/answer_frames",
-            **evaluations.modules(
+            evaluations.modules(
                 LAYOUT, "answer_frames", wildcards.frame_set, [wildcards.method]
             ),
         ),

@@ -24,10 +24,7 @@ rule render_frames:
     params:
         code=lambda wildcards: code(
             "frames/render_frames",
-            generators=frame_sets.generators(
-                LAYOUT, [wildcards.scene], wildcards.frame_set
-            ),
-            modules=frame_sets.light_shapes(LAYOUT, wildcards.frame_set),
+            frame_sets.modules(LAYOUT, wildcards.frame_set, [wildcards.scene]),
         ),
         settings=of(frame_sets.frame_settings),
     message:

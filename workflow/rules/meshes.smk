@@ -17,7 +17,7 @@ rule get_mesh:
         **usual(4000, minutes=30),
     params:
         code=lambda wildcards: code(
-            "meshes/get_mesh", modules=[LAYOUT.mesh_module(wildcards.scene)]
+            "meshes/get_mesh", [LAYOUT.mesh_module(wildcards.scene)]
         ),
         mesh=setting("scenes/{scene}/mesh"),
     message:

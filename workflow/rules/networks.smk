@@ -21,7 +21,7 @@ rule restore_weights:
         **usual(2000, minutes=10),
     params:
         code=lambda wildcards: code(
-            "training/restore_weights", forms=LAYOUT.forms([wildcards.experiment])
+            "training/restore_weights", LAYOUT.network_modules([wildcards.experiment])
         ),
         settings=of(trainings.restored_settings),
     message:
@@ -53,8 +53,7 @@ rule train:
     params:
         code=lambda wildcards: code(
             f"training/{trainings.stage(LAYOUT, wildcards.experiment)}",
-            LAYOUT.encodings([wildcards.experiment]),
-            forms=LAYOUT.forms([wildcards.experiment]),
+            LAYOUT.network_modules([wildcards.experiment]),
         ),
         kind=of(trainings.stage),
         settings=of(trainings.settings),

@@ -22,10 +22,7 @@ rule table:
     params:
         code=lambda wildcards: code(
             f"reports/tables/{SETTINGS['tables'][wildcards.table]['kind']}",
-            kinds.encodings(LAYOUT, "tables", wildcards.table),
-            kinds.generators(LAYOUT, "tables", wildcards.table),
-            forms=kinds.forms(LAYOUT, "tables", wildcards.table),
-            modules=kinds.method_modules(LAYOUT, "tables", wildcards.table),
+            kinds.modules(LAYOUT, "tables", wildcards.table),
         ),
         kind=setting("tables/{table}/kind"),
         settings=lambda wildcards: kinds.params(LAYOUT, "tables", wildcards.table),
@@ -56,9 +53,7 @@ rule figure:
     params:
         code=lambda wildcards: code(
             f"reports/figures/{SETTINGS['figures'][wildcards.figure]['kind']}",
-            kinds.encodings(LAYOUT, "figures", wildcards.figure),
-            kinds.generators(LAYOUT, "figures", wildcards.figure),
-            modules=kinds.method_modules(LAYOUT, "figures", wildcards.figure),
+            kinds.modules(LAYOUT, "figures", wildcards.figure),
         ),
         kind=setting("figures/{figure}/kind"),
         settings=lambda wildcards: kinds.params(LAYOUT, "figures", wildcards.figure),
@@ -88,7 +83,7 @@ rule preview_scene:
     params:
         code=lambda wildcards: code(
             f"reports/drawing/{previews.kind(LAYOUT, wildcards.scene)}",
-            generators=previews.generators(LAYOUT, wildcards.scene),
+            previews.modules(LAYOUT, wildcards.scene),
         ),
         kind=of(previews.kind),
         settings=of(previews.settings),
@@ -117,7 +112,7 @@ rule claims:
     resources:
         **usual(2000, minutes=10),
     params:
-        code=code("reports/claims/write_claims", modules=claims.modules(LAYOUT)),
+        code=code("reports/claims/write_claims", claims.modules(LAYOUT)),
         settings=claims.arguments(LAYOUT),
     message:
         "Testing the claims"
@@ -174,7 +169,7 @@ rule page:
     resources:
         **usual(4000, minutes=10),
     params:
-        code=code("reports/page/page", modules=targets.method_modules(LAYOUT)),
+        code=code("reports/page/page", targets.method_modules(LAYOUT)),
         settings=of(targets.page_settings),
         beside=of(targets.newest),
     message:

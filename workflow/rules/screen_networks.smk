@@ -18,7 +18,7 @@ rule profile_screen_network:
     params:
         code=lambda wildcards: code(
             "evaluation/profile_screen_network",
-            forms=[LAYOUT.entry("networks", wildcards.network, "form")["form"]],
+            [form_module(LAYOUT.entry("networks", wildcards.network, "form")["form"])],
         ),
         network=setting("networks/{network}"),
         profile=SETTINGS["screen_profiles"],
@@ -47,7 +47,7 @@ rule measure_sensitivity:
     params:
         code=lambda wildcards: code(
             "evaluation/measure_sensitivity",
-            forms=LAYOUT.forms([wildcards.experiment]),
+            LAYOUT.network_modules([wildcards.experiment]),
         ),
         seed=SETTINGS["seed"],
     message:

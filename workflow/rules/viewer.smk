@@ -16,7 +16,7 @@ rule export_network:
         **usual(4000, minutes=30),
     params:
         code=lambda wildcards: code(
-            "viewer/export_network", LAYOUT.encodings([wildcards.experiment])
+            "viewer/export_network", LAYOUT.network_modules([wildcards.experiment])
         ),
         bias=setting("experiments/{experiment}/bias"),
     message:
@@ -44,7 +44,10 @@ rule viewer:
     resources:
         **usual(4000, minutes=10),
     params:
-        code=lambda wildcards: code(**viewers.code_of(LAYOUT, wildcards.viewer)),
+        code=lambda wildcards: code(
+            f"viewer/{viewers.stage(LAYOUT, wildcards.viewer)}",
+            viewers.modules(LAYOUT, wildcards.viewer),
+        ),
         kind=of(viewers.stage),
         settings=of(viewers.arguments),
     message:

@@ -71,9 +71,8 @@ def test_files_of_methods(desk):
     assert desk.bias("shadow_map_512") is None and desk.bias("dragon") == 0
     assert desk.bias_file("dragon", "dragon") == desk.bias_file("dragon", "shadow_map_512") == []
     for method in ("shadow_map_512", "shadow_map_pcf_512_biased", "no_shadow"):
-        assert desk.weights(method) == [] and desk.method_encodings(method) == set()
+        assert desk.weights(method) == []
     assert desk.weights("dragon_biased") == ["results/networks/dragon/weights.safetensors"]
-    assert desk.method_encodings("dragon_biased") == {"frequency"}
     for method in ("dragon_biased", "dragon_field", "shadow_map_512_biased"):
         assert desk.bias(method) == HELD_OUT
         name = method.removesuffix("_biased")
@@ -127,16 +126,15 @@ def test_files_that_methods_are_evaluated_from(desk):
 def test_a_change_of_one_kind_of_frames_is_none_of_the_other(desk):
     """Nor of methods: each job has the modules of its own."""
     of_views = evaluations.modules(desk, "evaluate", VIEWS, ["shadow_map_64", "dragon"])
-    assert {path.stem for path in of_views["modules"]} == {"views", "view_metrics", "shadow_map"}
-    assert of_views["encodings"] == set()
-    tuned = evaluations.modules(desk, "tune", VIEWS, ["dragon"])
-    assert tuned["encodings"] == {"frequency"}
+    assert {path.stem for path in of_views} == {"views", "view_metrics", "shadow_map"}
+    tuned = evaluations.modules(desk, "tune", VIEWS, ["dragon_biased", "shadow_map_64"])
+    assert {path.stem for path in tuned} == {"views", "frequency", "shadow_map"}
     of_frames = evaluations.modules(desk, "evaluate", "frames", ["pcss"])
+    scenes = frame_sets.generators(desk, "frames")
     names = {"measured_frames", "frame_metrics", "pcss", "sphere"}
-    assert {path.stem for path in of_frames["modules"]} == names and not of_frames["forms"]
+    assert {path.stem for path in of_frames - scenes} == names and len(scenes) > 9
     of_network = evaluations.modules(desk, "tune", "windows", ["kpnsm"])
-    assert of_network["forms"] == {"kernels"}
-    assert "screen_network_method" in {path.stem for path in of_network["modules"]}
+    assert {"kernels", "screen_network_method"} < {path.stem for path in of_network}
 
 
 def test_unseen_scenes_may_have_more_test_frames():
@@ -183,8 +181,8 @@ def test_tables_and_claims_are_made_of_their_rows(desk):
     assert "results/evaluations/views/dragon.000/all_dark.csv" in made["metrics"]
     assert "reports/scenes/dragon.png" in made["beside"]
     # An edited network's code leaves a table alone that reads none of its files.
-    encodings = [kinds.encodings(desk, "tables", name) for name in ("table_4_3", "table_4_7")]
-    assert encodings == [set(), {"frequency"}]
+    read = [kinds.modules(desk, "tables", name) for name in ("table_4_3", "table_4_7")]
+    assert ["frequency" in {path.stem for path in modules} for modules in read] == [False, True]
     judged = claims.files(desk)
     assert "results/networks/dragon_high_rate/loss.csv" in judged["losses"]
     # Not timed, but in a pair: its record says how long it was trained.

@@ -8,6 +8,7 @@ from neural_shadows.config.resolved import resolved
 from neural_shadows.errors import InputError
 from neural_shadows.layout import previews
 from neural_shadows.layout.layout import Layout
+from neural_shadows.scenes.generated import generator_module
 
 STATUE = {
     "statue": {"mesh": {"path": "meshes/statue.obj"}, "up": "z"},
@@ -26,16 +27,15 @@ def layout():
 def test_an_arrangement_needs_its_inserted_meshes_alone(layout):
     assert previews.kind(layout, "room_statue") == "preview_arrangement"
     assert previews.files(layout, "room_statue") == {"meshes": ["results/scenes/statue/mesh.ply"]}
-    assert previews.generators(layout, "room_statue") == ["room"]
+    assert previews.modules(layout, "room_statue") == [generator_module("room")]
     settings = previews.settings(layout, "room_statue")
     assert settings["scene"]["inserted"] == {"statue": "z"}
     assert settings["advice"] == "Next: snakemake reports/mine.csv, with the same options."
 
 
 def test_a_mesh_is_drawn_by_itself(layout):
-    assert (
-        previews.kind(layout, "statue") == "preview" and previews.generators(layout, "dragon") == []
-    )
+    assert previews.kind(layout, "statue") == "preview"
+    assert previews.modules(layout, "dragon") == []
     assert previews.files(layout, "statue").keys() == {"mesh_ply", "mesh_json"}
     # No table has it yet.
     assert "a table (`tables`) with statue" in previews.settings(layout, "statue")["advice"]

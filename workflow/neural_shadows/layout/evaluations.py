@@ -10,7 +10,7 @@ from typing import Any
 
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation import frame
-from neural_shadows.evaluation.registry import is_network, method_modules
+from neural_shadows.evaluation.registry import is_network, method_modules, unbiased
 from neural_shadows.layout import frame_methods, frame_sets, tables
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import HELD_OUT, batches
@@ -161,29 +161,24 @@ def can_use_gpu(layout: Layout, frame_set: str, method: str) -> bool:
     return frame_set == VIEWS and layout.can_use_gpu(method)
 
 
-def modules(
-    layout: Layout, stage: str, frame_set: str, methods: Iterable[str]
-) -> dict[str, Iterable[str | Path]]:
-    """Modules imported by name for methods, as arguments of `code`."""
+def modules(layout: Layout, stage: str, frame_set: str, methods: Iterable[str]) -> set[Path]:
+    """Modules imported by name for methods of a stage."""
     methods = [*methods]
     views = frame_set == VIEWS
     imported = {frame.module_file(names[not views]) for names in IMPORTED[stage]}
     imported |= method_modules(methods)
     if views:
-        encodings = {kind for method in methods for kind in layout.method_encodings(method)}
         # Predictions of networks are an input of `evaluate`.
-        return {"modules": imported, "encodings": encodings if stage != "evaluate" else set()}
-    forms = frame_methods.forms(layout, methods)
-    imported |= {frame.module_file("screen_network_method") for _ in forms}
-    imported |= {*frame_sets.light_shapes(layout, frame_set)}
-    generators = frame_sets.all_generators(layout, frame_set)
-    return {"modules": imported, "forms": forms, "generators": generators}
+        trained = [] if stage == "evaluate" else filter(is_network, methods)
+        return imported | layout.network_modules(map(unbiased, trained))
+    networks = frame_methods.network_modules(layout, methods)
+    imported |= {frame.module_file("screen_network_method") for _ in networks}
+    return imported | networks | frame_sets.modules(layout, frame_set)
 
 
-def timed_modules(layout: Layout, table: str, group: str) -> dict[str, Iterable[str | Path]]:
+def timed_modules(layout: Layout, table: str, group: str) -> set[Path]:
     """`modules` of `time_methods`."""
-    views = on_views(layout, table)
-    frame_set = VIEWS if views else tables.frame_set(layout, table)
+    frame_set = VIEWS if on_views(layout, table) else tables.frame_set(layout, table)
     return modules(layout, "time_methods", frame_set, timed_methods(layout, table, group))
 
 

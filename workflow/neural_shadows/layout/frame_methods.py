@@ -1,6 +1,7 @@
 """Methods of frames: their weights, constants and labels."""
 
 from collections.abc import Iterable
+from pathlib import Path
 
 from neural_shadows.evaluation.registry import (
     FORMATS,
@@ -62,10 +63,10 @@ def experiments(layout: Layout, method: str) -> list[str]:
     return [_of_formats(layout).get(method, (method, "auto"))[0]]
 
 
-def forms(layout: Layout, methods: Iterable[str]) -> set[str]:
-    """Forms of the networks among methods."""
+def network_modules(layout: Layout, methods: Iterable[str]) -> set[Path]:
+    """Modules of the networks among methods."""
     names = [name for method in methods for name in experiments(layout, method)]
-    return layout.forms(names)
+    return layout.network_modules(names)
 
 
 def by_scene(layout: Layout, method: str) -> bool:

@@ -8,6 +8,7 @@ from neural_shadows.frames.uses import SEQUENCES, USES
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import part_names
 from neural_shadows.rendering.light_shape import shape_module
+from neural_shadows.scenes.generated import generator_module
 
 MEASURED_OF_LAYOUT = 2  # validation or test frames of each new layout of a scene
 # Settings shared by all frames of a set.
@@ -79,9 +80,10 @@ def meshes(layout: Layout, scene: str, frame_set: str) -> list[str]:
     return [layout.paths.scene("mesh.ply", name) for one in inserted for name in one["inserted"]]
 
 
-def generators(layout: Layout, scenes: Iterable[str], frame_set: str) -> list[str]:
-    """Generators of scenes, each once; none of a user's frames."""
-    return sorted({one["generate"] for one in _arrangements(layout, scenes, frame_set)})
+def generators(layout: Layout, frame_set: str, scenes: Iterable[str] | None = None) -> set[Path]:
+    """Modules of generators, of all scenes or some; none of a user's frames."""
+    names = measured_scenes(layout, frame_set) if scenes is None else scenes
+    return {generator_module(one["generate"]) for one in _arrangements(layout, names, frame_set)}
 
 
 def _arrangements(layout: Layout, scenes: Iterable[str], frame_set: str) -> list[Mapping[str, Any]]:
@@ -90,10 +92,12 @@ def _arrangements(layout: Layout, scenes: Iterable[str], frame_set: str) -> list
     return [layout.entry("scenes", scene)["arrangement"] for scene in scenes]
 
 
-def light_shapes(layout: Layout, frame_set: str) -> list[Path]:
-    """Module of the shape of a frame set's lights; none of a user's frames."""
+def modules(layout: Layout, frame_set: str, scenes: Iterable[str] | None = None) -> set[Path]:
+    """Modules of generators and of lights' shape; none of a user's frames."""
     settings = layout.frames(frame_set)
-    return [shape_module(settings["light"]["shape"])] if settings["path"] is None else []
+    if settings["path"] is not None:
+        return set()
+    return generators(layout, frame_set, scenes) | {shape_module(settings["light"]["shape"])}
 
 
 def parts(layout: Layout, scene: str, frame_set: str, use: str) -> list[str]:
@@ -182,9 +186,3 @@ def first_tests(layout: Layout, frame_set: str) -> list[str]:
     """First test part of each scene."""
     scenes = measured_scenes(layout, frame_set)
     return [parts(layout, scene, frame_set, "test")[0] for scene in scenes]
-
-
-def all_generators(layout: Layout, frame_set: str) -> list[str]:
-    """Generators of a frame set's scenes."""
-    scenes = measured_scenes(layout, frame_set)
-    return generators(layout, scenes, frame_set)

@@ -88,8 +88,8 @@ def params(layout: Layout, section: str, name: str) -> dict[str, Any]:
     return settings | shared | own
 
 
-def _own(layout: Layout, section: str, name: str, function: str) -> dict[str, Any]:
-    """Files or parameters that only an entry's kind has."""
+def _own(layout: Layout, section: str, name: str, function: str) -> Any:
+    """Files, parameters or modules that only an entry's kind has."""
     kind = kind_of(layout, section, name)
     return getattr(kind, function)(layout, name) if hasattr(kind, function) else {}
 
@@ -108,24 +108,19 @@ def _report(layout: Layout, section: str, name: str) -> Report:
     return Report(layout, name, layout.entry(section, name))
 
 
-def encodings(layout: Layout, section: str, name: str) -> set[str]:
-    """Kinds of networks with weights read by an entry."""
-    has_weights = "weights" in _named(layout, section, name)
-    experiments = _report(layout, section, name).experiments if has_weights else ()
-    return layout.encodings(experiments)
+def modules(layout: Layout, section: str, name: str) -> set[Path]:
+    """Modules imported by name for an entry.
 
-
-def forms(layout: Layout, section: str, name: str) -> set[str]:
-    """Forms of screen-space networks with convolutions counted by an entry."""
-    kind = kind_of(layout, section, name)
-    return kind.forms(layout, name) if hasattr(kind, "forms") else set()
-
-
-def generators(layout: Layout, section: str, name: str) -> list[str]:
-    """Generators of scenes with meshes read by an entry."""
-    if "soft_meshes" not in _named(layout, section, name):
-        return []
-    return frame_sets.all_generators(layout, _report(layout, section, name).frame_set)
+    Of networks with weights read, of generators of scenes with meshes read, of `method_modules`, and
+    of the kind's `modules(layout, name)`.
+    """
+    named, report = _named(layout, section, name), _report(layout, section, name)
+    imported = method_modules(layout, section, name) | {*_own(layout, section, name, "modules")}
+    if "weights" in named:
+        imported |= layout.network_modules(report.experiments)
+    if "soft_meshes" in named:
+        imported |= frame_sets.generators(layout, report.frame_set)
+    return imported
 
 
 def method_modules(layout: Layout, section: str, name: str) -> set[Path]:

@@ -11,7 +11,7 @@ from neural_shadows.errors import InputError
 from neural_shadows.evaluation.registry import is_classic, is_network, unbiased
 from neural_shadows.layout.parts import HELD_OUT, part_names, part_range, view_range
 from neural_shadows.layout.paths import Paths
-from neural_shadows.networks.kind_module import ENCODINGS
+from neural_shadows.networks.kind_module import ENCODINGS, form_module, kind_module
 from neural_shadows.networks.settings.object_space import NetworkModel
 from neural_shadows.sections.frame_sets import VIEWS
 from neural_shadows.sections.views import Views
@@ -149,17 +149,13 @@ class Layout:
         mesh_json = self.paths.scene("mesh.json", scene)
         return {"mesh_json": mesh_json, "depth_bias_json": self.bias_file(scene, experiment)}
 
-    def encodings(self, experiments: Iterable[str]) -> set[str]:
-        """Kinds of networks on rays of experiments."""
-        return self._of_networks(experiments, "encoding")
-
-    def forms(self, experiments: Iterable[str]) -> set[str]:
-        """Forms of screen-space networks of experiments."""
-        return self._of_networks(experiments, "form")
-
-    def _of_networks(self, experiments: Iterable[str], key: str) -> set[str]:
+    def network_modules(self, experiments: Iterable[str]) -> set[Path]:
+        """Modules of the kinds of experiments' networks."""
         networks = [self.entry("experiments", name)["network"] for name in experiments]
-        return {network[key] for network in networks if key in network}
+        return {
+            form_module(network["form"]) if "form" in network else kind_module(network["encoding"])
+            for network in networks
+        }
 
     def view_range(self, batch: str) -> dict[str, int]:
         """First and last (exclusive) viewpoint of a batch, per view set."""
@@ -181,7 +177,3 @@ class Layout:
         """File of a method's weights; empty without a network."""
         file = self.paths.network("weights.safetensors", unbiased(method))
         return [file] * is_network(method)
-
-    def method_encodings(self, method: str) -> set[str]:
-        """Kind of a method's network; empty without a network."""
-        return self.encodings([unbiased(method)] * is_network(method))

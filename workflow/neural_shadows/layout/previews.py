@@ -1,9 +1,11 @@
 """Pictures of scenes before anything is computed: files and settings."""
 
+from pathlib import Path
 from typing import Any
 
 from neural_shadows.layout import frame_sets
 from neural_shadows.layout.layout import Layout
+from neural_shadows.scenes.generated import generator_module
 
 _MESH, _ARRANGEMENT = "preview", "preview_arrangement"
 
@@ -22,11 +24,11 @@ def files(layout: Layout, scene: str) -> dict[str, Any]:
     return {"meshes": [layout.paths.scene("mesh.ply", name) for name in inserted]}
 
 
-def generators(layout: Layout, scene: str) -> list[str]:
-    """Generator of an arrangement; none of a mesh."""
+def modules(layout: Layout, scene: str) -> list[Path]:
+    """Module of an arrangement's generator; none of a mesh."""
     if kind(layout, scene) == _MESH:
         return []
-    return [layout.entry("scenes", scene)["arrangement"]["generate"]]
+    return [generator_module(layout.entry("scenes", scene)["arrangement"]["generate"])]
 
 
 def settings(layout: Layout, scene: str) -> dict[str, Any]:

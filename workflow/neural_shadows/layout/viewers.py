@@ -1,9 +1,11 @@
 """Files and settings of viewers."""
 
+from pathlib import Path
 from typing import Any
 
 from neural_shadows.layout import frame_sets, tables
 from neural_shadows.layout.layout import Layout
+from neural_shadows.scenes.generated import generator_module
 
 _HARD, _SOFT = "write_viewer", "write_soft_viewer"
 # Files of `report/viewer` that the viewer of an area light has as well.
@@ -72,17 +74,14 @@ def _soft_arguments(layout: Layout, settings: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-def code_of(layout: Layout, viewer: str) -> dict[str, Any]:
-    """Modules behind a viewer, see `code` of the rules."""
-    settings, name = layout.entry("viewers", viewer), stage(layout, viewer)
-    code = {"stage": f"viewer/{name}"}
-    if name == _HARD:
-        return code | {"encodings": layout.encodings(tables.experiments_of(settings["rows"]))}
+def modules(layout: Layout, viewer: str) -> set[Path]:
+    """Modules of a viewer's networks, and of its scene's generator."""
+    settings = layout.entry("viewers", viewer)
+    if stage(layout, viewer) == _HARD:
+        return layout.network_modules(tables.experiments_of(settings["rows"]))
     arrangement = layout.entry("scenes", settings["scene"])["arrangement"]
-    return code | {
-        "forms": layout.forms(settings["networks"]),
-        "generators": [arrangement["generate"]],
-    }
+    networks = layout.network_modules(settings["networks"])
+    return networks | {generator_module(arrangement["generate"])}
 
 
 def labels(layout: Layout, viewer: str) -> dict[str, str]:

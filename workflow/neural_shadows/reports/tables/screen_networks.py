@@ -8,6 +8,7 @@ import pandas as pd
 from pydantic import Field
 
 from neural_shadows.layout.layout import Layout
+from neural_shadows.networks.kind_module import form_module
 from neural_shadows.networks.screen_space.screen_forms import layers_of
 from neural_shadows.networks.screen_space.widths import total
 from neural_shadows.networks.settings.networks import screen_network
@@ -57,9 +58,9 @@ def params(layout: Layout, table: str) -> dict[str, Any]:
     return {"networks": rows}
 
 
-def forms(layout: Layout, table: str) -> set[str]:
+def modules(layout: Layout, table: str) -> set[Path]:
     rows = layout.entry("tables", table)["networks"]
-    return {layout.entry("networks", row["network"])["form"] for row in rows}
+    return {form_module(layout.entry("networks", row["network"])["form"]) for row in rows}
 
 
 def table(published_nsm_csv: Path, published: str | None, networks: Sequence[Network]) -> Table:
