@@ -122,10 +122,9 @@ def slow_down(checkout: Checkout, seconds: float) -> None:
     """Have a training rest so long at each point of its curve; its weights stay the same."""
     train = checkout.module("training/train_on_rays.py")
     source = train.read_text()
-    points = "yield from curve_points(run, advance, after_step)"
-    rest = "for step in curve_points(run, advance, after_step):"
-    assert points in source
-    slow = source.replace(points, f"{rest} time.sleep({seconds}); yield step")
+    call = 'train_to_end(run, advance, header["name"], checkpoint, started'
+    assert f"{call})" in source
+    slow = source.replace(f"{call})", f"{call}, at_point=lambda step: time.sleep({seconds}))")
     train.write_text(slow)
 
 

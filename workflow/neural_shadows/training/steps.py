@@ -1,7 +1,7 @@
 """Steps of a training, with checkpoints and progress."""
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 from neural_shadows.files.whole_files import write_text
@@ -15,53 +15,41 @@ CURVE_POINTS = 500
 # Between checkpoints. A kill costs at most these and one point of the loss curve, 1/500 of the run.
 CHECKPOINT_SECONDS = 30.0
 
-Points = Callable[[Callable[[int], object]], Iterator[int]]
-"""Does the remaining steps: from a callback for each step's samples to `curve_points`."""
-
-
-def curve_points(
-    run: TrainingState, advance: Callable[[], None], after_step: Callable[[int], object]
-) -> Iterator[int]:
-    """Do the remaining steps; yield the steps at loss-curve points.
-
-    Args:
-        advance: does one step.
-        after_step: called with the samples of each step.
-    """
-    steps = run.settings["steps"]
-    point_interval = max(1, steps // CURVE_POINTS)
-    step = int(run.step)
-    while step < steps and run.died_at_step is None:
-        advance()
-        step += 1
-        after_step(run.samples_a_step)
-        if step % point_interval == 0 or step == steps:
-            run.add_point()
-            yield step
-
 
 def train_to_end(
     run: TrainingState,
-    points: Points,
+    advance: Callable[[], object],
     name: str,
     checkpoint: Path,
     started: float,
     samples: str = "samples",
+    at_point: Callable[[int], object] = lambda step: None,
 ) -> None:
     """Do the remaining steps, with checkpoints and progress.
 
     The run's seconds count from `started` on the monotonic clock.
 
     Args:
+        advance: does one step.
         samples: unit of the progress bar, a plural.
+        at_point: called with the steps at each point of the loss curve, before a checkpoint.
     """
     seconds_before, last_saved = run.seconds, started
+    steps = run.settings["steps"]
+    point_interval = max(1, steps // CURVE_POINTS)
     step = saved_step = int(run.step)
-    total, done = run.settings["steps"] * run.samples_a_step, step * run.samples_a_step
+    total, done = steps * run.samples_a_step, step * run.samples_a_step
     with progress_bar(total, samples, f"train {name}", done) as bar:
-        # Checkpoints are written at points of the curve only: a restored run then has no partial
-        # loss sum, and only there a GPU is waited for.
-        for step in points(bar.update):
+        while step < steps and run.died_at_step is None:
+            advance()
+            step += 1
+            bar.update(run.samples_a_step)
+            if step % point_interval != 0 and step < steps:
+                continue
+            # Checkpoints are written at points of the curve only: a restored run then has no partial
+            # loss sum, and only there a GPU is waited for.
+            run.add_point()
+            at_point(step)
             bar.set_postfix(loss=f"{run.curve[-1][2]:.4g}", refresh=False)
             run.seconds = seconds_before + time.monotonic() - started
             if time.monotonic() - last_saved > CHECKPOINT_SECONDS:

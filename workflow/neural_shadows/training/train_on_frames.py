@@ -6,8 +6,8 @@ Resumable and reproducible from the seed.
 import hashlib
 import json
 import time
-from collections.abc import Callable, Iterator, Sequence
-from functools import partial
+from collections.abc import Sequence
+from itertools import count
 from pathlib import Path
 
 import torch
@@ -36,7 +36,7 @@ from neural_shadows.training.screen_validation import (
     spread_images,
 )
 from neural_shadows.training.settings.frames import ScreenTraining
-from neural_shadows.training.steps import curve_points, train_to_end
+from neural_shadows.training.steps import train_to_end
 from neural_shadows.training.training_data import describe_data
 from neural_shadows.training.training_state import gradient_pool
 
@@ -137,8 +137,17 @@ def train_on_frames(
             # In alphabetical order, as a checkpoint restores them.
             run.validations.append({"mse": mse, "step": int(run.step)})
 
-        points = partial(_points, run, validate, pool)
-        train_to_end(run, points, experiment, checkpoint, started, "pixels")
+        def validate_at(step: int) -> None:
+            before = run.validations[-1]["step"] if run.validations else 0
+            if VALIDATIONS * step // training.steps > VALIDATIONS * before // training.steps:
+                validate()
+
+        numbers = count(int(run.step))
+
+        def advance() -> None:
+            run.train_step(next(numbers), pool)
+
+        train_to_end(run, advance, experiment, checkpoint, started, "pixels", validate_at)
         if not run.validations or run.validations[-1]["step"] < int(run.step):
             validate()  # after a divergence
         seen = spread_images(frames, len(images))
@@ -169,25 +178,6 @@ def _check_perturbed(frames: ScreenFrames, train: Sequence[Path], training: Scre
 def _digest(files: Sequence[Path]) -> str:
     """Digest of the data's descriptions; the arrays beside them follow from these."""
     return hashlib.sha256(json.dumps([sha256_of(path) for path in files]).encode()).hexdigest()
-
-
-def _points(
-    run: ScreenRun, validate: Callable[[], None], pool, after_step: Callable[[int], object]
-) -> Iterator[int]:
-    """Do the remaining steps, with validations."""
-    number, steps = int(run.step), run.settings["steps"]
-
-    def advance() -> None:
-        nonlocal number
-        run.train_step(number, pool)
-        number += 1
-
-    before = number
-    for step in curve_points(run, advance, after_step):
-        if VALIDATIONS * step // steps > VALIDATIONS * before // steps:
-            validate()
-        before = step
-        yield step
 
 
 if "snakemake" in globals():

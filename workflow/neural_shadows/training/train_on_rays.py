@@ -4,8 +4,6 @@ Resumable and reproducible from the seed. An untrained one, such as a decimated 
 """
 
 import time
-from collections.abc import Callable, Iterator
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +27,7 @@ from neural_shadows.training.cuda_graph import recorded
 from neural_shadows.training.loss_curve import COLUMNS
 from neural_shadows.training.no_shadow import no_shadow_loss
 from neural_shadows.training.settings.rays import RayTraining
-from neural_shadows.training.steps import curve_points, train_to_end
+from neural_shadows.training.steps import train_to_end
 from neural_shadows.training.training_run import TrainingRun
 from neural_shadows.training.training_state import gradient_pool
 
@@ -126,35 +124,20 @@ def _train(
     checkpoint = checkpoint_folder(weights, header, code)
     if (checkpoint / STATE).exists():
         run.restore(checkpoint / STATE)
-    points = partial(_points, run, rays, threads)
-    train_to_end(run, points, header["name"], checkpoint, started)
-    null = {"no_shadow_loss": no_shadow_loss(rays, run.dead_zone)}
-    return {**run.outcome(), **null, "died_at_step": run.died_at_step}, run.curve_csv()
-
-
-def _points(
-    run: TrainingRun, rays: RaySet, threads: int, after_step: Callable[[int], object]
-) -> Iterator[int]:
-    """Do the remaining steps, see `curve_points`.
-
-    Args:
-        after_step: called with the samples of each step.
-    """
-    batch_size = run.settings["batch_size"]
     source = batch_source(rays, run.device)
+    batches = {key: run.settings[key] for key in ("seed", "batch_size")} | {"count": rays.count}
     with gradient_pool(threads) as pool:
         # One thread feeds a GPU, so that its stream can be recorded.
         workers = pool if run.device.type == "cpu" else None
 
         def advance() -> None:
-            indices = batch_indices(
-                run.step, seed=run.settings["seed"], batch_size=batch_size, count=rays.count
-            )
-            run.train_step(source.gather(indices), workers)
+            run.train_step(source.gather(batch_indices(run.step, **batches)), workers)
 
         if run.network.recordable and isinstance(source, DeviceRays):
             advance = recorded(advance)
-        yield from curve_points(run, advance, after_step)
+        train_to_end(run, advance, header["name"], checkpoint, started)
+    null = {"no_shadow_loss": no_shadow_loss(rays, run.dead_zone)}
+    return {**run.outcome(), **null, "died_at_step": run.died_at_step}, run.curve_csv()
 
 
 if "snakemake" in globals():
