@@ -15,8 +15,7 @@ from neural_shadows.representations.shadow_field.shadow_field import ShadowField
 from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.cameras import Camera, camera_axes
-from neural_shadows.scenes.lights import axis_vector
-from neural_shadows.scenes.sky import sky_patches, sun_directions
+from neural_shadows.scenes.sky import scene_axes, sky_patches, sun_directions
 from neural_shadows.scenes.tracing import Tracer
 
 # Starts of rays off the surface: of the field in cells, of triangles in radii. Of a city at 512³ a sixth
@@ -136,7 +135,7 @@ def _compile() -> None:
 def _rays(up: str, latitude: float, day: int, minutes: float) -> Rays:
     suns = sun_directions(latitude, day, minutes, up)
     patches, angles = sky_patches(up)
-    shares = angles / (angles @ (patches @ axis_vector(up, "up")))
+    shares = angles / (angles @ (patches @ scene_axes(up)[2]))
     none = np.zeros(len(patches))
     return Rays(
         np.concatenate([suns, patches]),
@@ -200,7 +199,7 @@ def _picture(
     mesh: PreparedMesh, tracer: Tracer, shadow_field: ShadowField, up: str, width: int, rays: Rays
 ) -> dict[str, np.ndarray]:
     """`hours` and `sky` of the pixels of a picture of the mesh."""
-    camera, height = _camera(mesh, axis_vector(up, "up"), up), int(width / ASPECT)
+    camera, height = _camera(mesh, up), int(width / ASPECT)
     directions = pixel_directions(camera, width, height)
     eye = np.tile(camera.eye.astype(np.float32), (len(directions), 1))
     t, face = tracer.first_hit(eye, directions)
@@ -216,9 +215,9 @@ def _picture(
     return dict(zip(("hours", "sky"), picture.reshape(2, height, width)))
 
 
-def _camera(mesh: PreparedMesh, up: np.ndarray, axis: str) -> Camera:
+def _camera(mesh: PreparedMesh, axis: str) -> Camera:
     """A camera from above aslant that just holds the mesh, from the sunny side."""
-    east, north = _ground_axes(axis)
+    east, north, up = scene_axes(axis)
     azimuth, elevation = np.radians(AZIMUTH), np.radians(ELEVATION)
     level = np.sin(azimuth) * east + np.cos(azimuth) * north
     away = np.cos(elevation) * level + np.sin(elevation) * up
@@ -230,15 +229,6 @@ def _camera(mesh: PreparedMesh, up: np.ndarray, axis: str) -> Camera:
     distance = 1.02 * (reach.max(axis=1) - seen[:, 2]).max()
     middle = target @ axes
     return Camera(middle + distance * away, middle, up, FOV)
-
-
-def _ground_axes(axis: str) -> tuple[np.ndarray, np.ndarray]:
-    """East and north; see `scenes.sky`."""
-    middles, _ = sky_patches(axis)
-    up = axis_vector(axis, "up")
-    north = middles[0] - middles[0] @ up * up
-    north /= np.linalg.norm(north)
-    return np.cross(north, up), north
 
 
 if "snakemake" in globals():

@@ -8,7 +8,6 @@ import numpy as np
 
 from neural_shadows.errors import InputError
 
-# East, north and up, as rows.
 _AXES = {
     "x": [[0, 1, 0], [0, 0, 1], [1, 0, 0]],
     "y": [[1, 0, 0], [0, 0, -1], [0, 1, 0]],
@@ -31,7 +30,7 @@ def sky_patches(up: str = "y") -> tuple[np.ndarray, np.ndarray]:
     Raises:
         InputError: another axis.
     """
-    axes = _axes(up)
+    axes = scene_axes(up)
     directions, angles = [], []
     for band, count in enumerate(BANDS):
         low, high = np.radians(BAND * band), min(np.radians(BAND * (band + 1)), np.pi / 2)
@@ -64,7 +63,7 @@ def sun_directions(latitude: float, day: int, minutes: float = 10, up: str = "y"
     for name, (value, valid, allowed) in in_range.items():
         if not valid:
             raise InputError(f"{name}: {value!r}: out of range. Give {allowed}.")
-    axes = _axes(up)
+    axes = scene_axes(up)
     phi, delta = np.radians(latitude), np.radians(23.45) * np.sin(2 * np.pi * (284 + day) / 365)
     hour = 2 * np.pi * ((np.arange(steps) + 0.5) / steps - 0.5)  # 0 at noon
     east = -np.cos(delta) * np.sin(hour)
@@ -73,7 +72,12 @@ def sun_directions(latitude: float, day: int, minutes: float = 10, up: str = "y"
     return np.stack([east, north, height], axis=1)[height > 0] @ axes
 
 
-def _axes(up: str) -> np.ndarray:
+def scene_axes(up: str) -> np.ndarray:
+    """East, north and up of a scene, as rows.
+
+    Raises:
+        InputError: another vertical axis than "x", "y" or "z".
+    """
     if up not in _AXES:
         raise InputError(f"up: {up!r}: no axis. Give one of {', '.join(_AXES)}.")
     return np.array(_AXES[up], float)
