@@ -1,6 +1,7 @@
 """A profile times every part of a network once a frame, whatever its form."""
 
 import json
+import time
 from pathlib import Path
 from typing import Any
 
@@ -35,7 +36,7 @@ def profiled(folder: Path, network: dict[str, Any]) -> dict[str, Any]:
 def test_each_part_of_each_level_is_timed(tmp_path, monkeypatch, settings):
     """A clock that goes on by 1 ms at each look: a part takes 1, a whole frame too, untimed inside."""
     ticks = iter(range(10**6))
-    monkeypatch.setattr(stage.time, "perf_counter", lambda: next(ticks) / 1000)
+    monkeypatch.setattr(time, "perf_counter", lambda: next(ticks) / 1000)
     monkeypatch.setattr(stage, "is_native", lambda dtype, device: True)
     network = {"features": ["ratio", "n"]} | settings
     found = profiled(tmp_path, network)

@@ -1,9 +1,9 @@
 """Stage: times of a screen-space network by level and part. As in Datta et al. 2022, S3."""
 
-import time
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +12,7 @@ import torch
 
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.frames.feature_names import channels_of
-from neural_shadows.networks.compute import choose_device, is_native
+from neural_shadows.networks.compute import choose_device, finished, is_native
 from neural_shadows.networks.screen_space.screen_forms import layers_of
 from neural_shadows.networks.screen_space.screen_network import ScreenNetwork
 from neural_shadows.networks.screen_space.screen_networks import make_screen_network
@@ -100,7 +100,7 @@ def _timed(network: ScreenNetwork, profile: Mapping[str, int]) -> dict[str, Any]
     square = torch.rand(side, side, generator=generator).to(**like)
     times: dict[str, list[float]] = defaultdict(list)
     parts: dict[LevelPart, list[float]] = defaultdict(list)
-    clock = _clock(weight.device)
+    clock = partial(finished, weight.device)
 
     def measure(name: str, work: Callable[[], Any]) -> None:
         started = clock()
@@ -148,17 +148,6 @@ def _parts_timed(
     finally:
         for hook in hooks:
             hook.remove()
-
-
-def _clock(device: torch.device) -> Callable[[], float]:
-    """Seconds once all work on a device is done."""
-
-    def now() -> float:
-        if device.type == "cuda":
-            torch.cuda.synchronize(device)
-        return time.perf_counter()
-
-    return now
 
 
 if "snakemake" in globals():

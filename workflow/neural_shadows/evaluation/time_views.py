@@ -12,7 +12,7 @@ from neural_shadows.evaluation.frame import Inputs
 from neural_shadows.evaluation.memory import stored_bytes
 from neural_shadows.evaluation.ray_network import open_network
 from neural_shadows.evaluation.registry import classic_method, is_network, unbiased
-from neural_shadows.networks.compute import choose_device, choose_dtype
+from neural_shadows.networks.compute import choose_device, choose_dtype, finished
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 from neural_shadows.networks.object_space.shadow_query import on_device
 from neural_shadows.networks.object_space.sphere_rays import sphere_rays
@@ -57,22 +57,15 @@ def timed_network(network: ShadowNetwork, dtype: torch.dtype) -> TimedMethod:
 
     def answer(frame: GBuffer) -> tuple[np.ndarray, float]:
         p, light = on_device(frame.p, frame.view.light, network.device)
-        started = _finished(network.device)
+        started = finished(network.device)
         lit = network.points_lit(p, light, dtype)(0.0)
-        ended = _finished(network.device)
+        ended = finished(network.device)
         visibility = frame.visibility(lit.cpu().numpy())
         if network.device.type == "cpu":
             ended = time.perf_counter()
         return visibility, ended - started
 
     return TimedMethod(answer, network.device.type, network.resident_bytes())
-
-
-def _finished(device: torch.device) -> float:
-    """The time once a GPU is idle."""
-    if device.type == "cuda":
-        torch.cuda.synchronize(device)
-    return time.perf_counter()
 
 
 def times(

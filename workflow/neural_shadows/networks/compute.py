@@ -1,5 +1,7 @@
 """Device and number format of the networks."""
 
+import time
+
 import torch
 from llvmlite.binding import get_host_cpu_name
 
@@ -23,6 +25,13 @@ def choose_device(device: str) -> torch.device:
     if device == "cuda" and not torch.cuda.is_available():
         raise InputError("device: cuda: torch finds no CUDA GPU. Set device: auto or cpu.")
     return torch.device(device)
+
+
+def finished(device: torch.device) -> float:
+    """Seconds on a clock, once all work on the device is done."""
+    if device.type == "cuda":
+        torch.cuda.synchronize(device)
+    return time.perf_counter()
 
 
 def is_native(dtype: torch.dtype, device: torch.device) -> bool:

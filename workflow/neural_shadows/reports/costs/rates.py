@@ -11,7 +11,7 @@ import numpy as np
 import torch
 import trimesh
 
-from neural_shadows.networks.compute import choose_device, choose_dtype
+from neural_shadows.networks.compute import choose_device, choose_dtype, finished
 from neural_shadows.running.one_thread import one_thread
 from neural_shadows.scenes.tracing import Tracer
 
@@ -88,11 +88,9 @@ def _seconds(work: Callable[[], object], device: torch.device) -> float:
     work()
     least, deadline = np.inf, time.perf_counter() + SECONDS
     while time.perf_counter() < deadline:
-        started = time.perf_counter()
+        started = finished(device)
         work()
-        if device.type == "cuda":
-            torch.cuda.synchronize(device)
-        least = min(least, time.perf_counter() - started)
+        least = min(least, finished(device) - started)
     return float(least)
 
 
