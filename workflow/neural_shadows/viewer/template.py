@@ -6,10 +6,14 @@ from pathlib import Path
 from typing import Any
 
 import jinja2
+import numpy as np
 from markupsafe import Markup
 from PIL import Image
 
+from neural_shadows.files.whole_files import write_text
 from neural_shadows.reports.page.blocks import data_uri
+from neural_shadows.running import progress
+from neural_shadows.scenes.cameras import Camera, Viewpoint
 
 
 def fill_template(
@@ -36,6 +40,20 @@ def fill_template(
         poster=_jpeg(poster),
         **values,
     )
+
+
+def write_html(html: Path, page: str, most_bytes: int, advice: str) -> None:
+    """Write a page; of a large one print a line with advice."""
+    if len(page) > most_bytes:
+        large = f"{len(page):,} bytes, more than {most_bytes:,}, is slow to open"
+        print(f"{html}: {large}. {advice}", file=progress.TERMINAL)
+    write_text(html, page)
+
+
+def shown_view(name: str, camera: Camera | Viewpoint, light: np.ndarray) -> dict[str, Any]:
+    """A view by name: its camera, and the light's place or direction."""
+    places = {"eye": camera.eye, "target": camera.target, "light": light}
+    return {"name": name, "fov": camera.fov, **{k: place.tolist() for k, place in places.items()}}
 
 
 def shaders(template: Sequence[Path]) -> dict[str, str]:

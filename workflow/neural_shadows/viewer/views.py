@@ -15,6 +15,7 @@ from neural_shadows.scenes.cameras import Viewpoint
 from neural_shadows.scenes.lights import arc_directions
 from neural_shadows.scenes.scene import Scene
 from neural_shadows.settings.records import ViewSettings
+from neural_shadows.viewer.template import shown_view
 
 POSTER = (960, 640)  # pixels
 
@@ -30,11 +31,7 @@ def shown_views(scene: Scene, frames: ViewSettings, count: int) -> list[dict[str
     drawn = draw_viewpoints(scene, sets, range(count), aspect, seed, least)
     named = {"Whole object": _hero_view(scene)}
     named |= {f"{view.view_set.capitalize()} view {view.index + 1}": view for view in drawn}
-    return [
-        {"name": name, "fov": view.fov}
-        | {key: getattr(view, key).tolist() for key in ("eye", "target", "light")}
-        for name, view in named.items()
-    ]
+    return [shown_view(name, view, view.light) for name, view in named.items()]
 
 
 def poster(scene: Scene) -> Image.Image:

@@ -9,7 +9,7 @@ from PIL import Image
 
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.memory import network_bytes
-from neural_shadows.files.whole_files import whole_file, write_text
+from neural_shadows.files.whole_files import whole_file
 from neural_shadows.frames.draw_settings import FrameKind, draw_setting
 from neural_shadows.frames.setting import Setting
 from neural_shadows.frames.soft_scene import SoftScene
@@ -18,13 +18,12 @@ from neural_shadows.rendering.light_shape import SPHERE, light_shape
 from neural_shadows.rendering.soft_shadows import soft_visibility
 from neural_shadows.rendering.surface import see_surface
 from neural_shadows.reports.data.phrases import describe_run
-from neural_shadows.running import progress
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import Scene
 from neural_shadows.settings.records import FrameSettings, GeneratedScene, Run
 from neural_shadows.viewer.screen_arrays import screen_arrays
 from neural_shadows.viewer.soft_scene_arrays import shown_fields, shown_scene
-from neural_shadows.viewer.template import fill_template, shaders
+from neural_shadows.viewer.template import fill_template, shaders, shown_view, write_html
 
 MOST_BYTES = 6 << 20
 POSTER = (960, 480)  # pixels
@@ -83,18 +82,15 @@ def write_soft_viewer(
             "fields": shown_fields(opened.at_rest),
             "radius": radius,
             "resolution": resolution,
-            "views": [_view(number, setting) for number, setting in enumerate(settings, 1)],
+            "views": [
+                shown_view(f"View {number}", setting.camera, setting.centre)
+                for number, setting in enumerate(settings, 1)
+            ],
             "networks": networks,
             "shaders": shaders(template),
         },
     )
-    if len(page) > MOST_BYTES:
-        print(
-            f"{html}: {len(page):,} bytes, more than {MOST_BYTES:,}, is slow to open. Show fewer "
-            "`triangles` or `networks`",
-            file=progress.TERMINAL,
-        )
-    write_text(html, page)
+    write_html(html, page, MOST_BYTES, "Show fewer `triangles` or `networks`")
 
 
 def poster(scene: Scene, setting: Setting, radius: float) -> Image.Image:
@@ -117,16 +113,6 @@ def _views(scene: SoftScene, fov: float, radius: float, seed: int) -> list[Setti
     kind = FrameKind(width, height, fov, None, {"kind": "cube", "resolution": 64}, radius)
     rng = np.random.default_rng(seed)
     return [draw_setting(scene, kind, rng) for _ in range(_VIEWS)]
-
-
-def _view(number: int, setting: Setting) -> dict[str, Any]:
-    camera = setting.camera
-    places = {"eye": camera.eye, "target": camera.target, "light": setting.centre}
-    return {
-        "name": f"View {number}",
-        "fov": camera.fov,
-        **{key: place.tolist() for key, place in places.items()},
-    }
 
 
 def _network(weights: Path, label: str, size: float) -> Mapping[str, Any]:

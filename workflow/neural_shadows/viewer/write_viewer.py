@@ -6,20 +6,19 @@ from typing import Any
 
 from neural_shadows.evaluation.memory import network_bytes
 from neural_shadows.evaluation.ray_network import take_constants
-from neural_shadows.files.whole_files import read_json, whole_file, write_text
+from neural_shadows.files.whole_files import read_json, whole_file
 from neural_shadows.networks.weight_file import load_network
 from neural_shadows.rendering.gbuffer import GROUND_RADIUS, SHADING_OFFSET
 from neural_shadows.rendering.shading import BACKGROUND
 from neural_shadows.reports.data.phrases import describe_mesh, describe_run
 from neural_shadows.representations.meshes.decimation import decimated
-from neural_shadows.running import progress
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import open_scene
 from neural_shadows.settings.records import Row, Run, SceneInfo, SceneSettings, ViewSettings
 from neural_shadows.viewer.mesh_arrays import BITS, mesh_arrays
 from neural_shadows.viewer.network_arrays import network_arrays
 from neural_shadows.viewer.packed import packed
-from neural_shadows.viewer.template import fill_template, shaders
+from neural_shadows.viewer.template import fill_template, shaders, write_html
 from neural_shadows.viewer.views import poster, shown_views
 
 # 3.4 bytes per triangle: with a 256³ field and a network of width 64 a viewer takes 2 MiB.
@@ -99,13 +98,7 @@ def write_viewer(
         about=f"Mesh: {describe_mesh(report, about)}. {quantised} {describe_run(run)}",
         data=data,
     )
-    if len(page) > MOST_BYTES:
-        print(
-            f"{html}: {len(page):,} bytes, more than {MOST_BYTES:,}, is slow to open. Use a field "
-            "of fewer cells",
-            file=progress.TERMINAL,
-        )
-    write_text(html, page)
+    write_html(html, page, MOST_BYTES, "Use a field of fewer cells")
 
 
 def _network(weights: Path, row: Row, depth_biases: Mapping[str, Path]) -> dict[str, Any]:
