@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from neural_shadows.reports.data.table import Table, intervals, numbers, write_table
-from neural_shadows.reports.drawing.chart import add_tooltip, write_chart
+from neural_shadows.reports.drawing.chart import add_tooltip
+from neural_shadows.reports.drawing.style import write_figure
 from neural_shadows.reports.page.page import write_page
 
 TEMPLATE = sorted((Path(__file__).parents[1] / "workflow" / "report" / "page").iterdir())
@@ -77,7 +78,7 @@ def make_page(folder: Path, **changes) -> Path:
     for x, text in enumerate((HOSTILE, *POINTS)):
         (point,) = axes.plot([x], [2], "o")
         add_tooltip(point, text)
-    write_chart(chart, drawing.with_suffix(".png"), drawing)
+    write_figure(chart, drawing.with_suffix(".png"), drawing)
     viewer = folder / "viewer.html"
     viewer.write_text(VIEWER)
     Image.new("RGB", (96, 64), "green").save(viewer.with_suffix(".png"))

@@ -7,8 +7,7 @@ import numpy as np
 import pandas as pd
 
 from neural_shadows.reports.data.table import whole_table, write_table
-from neural_shadows.reports.drawing.chart import write_chart
-from neural_shadows.reports.drawing.style import whole_figure
+from neural_shadows.reports.drawing.style import whole_figure, write_figure
 
 PUBLISHED = Path(__file__).parents[1] / "config" / "published.csv"
 RUN = {"scale": "test", "seed": 1, "width": 60, "height": 40, "reference": "exact"}
@@ -142,10 +141,10 @@ def written_table(make, folder, **given):
     return written(whole_table(make)(**settings), folder)
 
 
-def written_figure(draw, folder, write=write_chart, **given):
+def written_figure(draw, folder, **given):
     """The SVG's text of the figure that a kind's function draws; the PNG is beside it."""
     png, svg = folder / "figure.png", folder / "figure.svg"
-    write(whole_figure(draw)(**{"title": "Title", "run": RUN, **given}), png, svg)
+    write_figure(whole_figure(draw)(**{"title": "Title", "run": RUN, **given}), png, svg)
     return svg.read_text(encoding="utf-8")
 
 

@@ -43,8 +43,8 @@ def recipes() -> dict[str, str]:
 
 
 def lines_of(source: str) -> list[str]:
-    """Lines of a recipe, without empty ones, imports, docstrings and Snakemake's call."""
-    source = re.sub(r'""".*?"""', "", source.partition('if "snakemake" in')[0], flags=re.S)
+    """Lines of a recipe, without empty ones, imports and docstrings."""
+    source = re.sub(r'""".*?"""', "", source, flags=re.S)
     rows = (row.strip() for row in source.splitlines())
     return [row for row in rows if row and not row.startswith(("from ", "import "))]
 

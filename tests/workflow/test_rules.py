@@ -119,7 +119,7 @@ def test_names(workflow):
         names = files | {*params, *params.get("settings", {})}
         script = str(rule.script).replace("{params.kind}", params.get("kind", ""))
         room = script[script.index("neural_shadows/") : -len(".py")]
-        module = import_module(room.replace("/", "."))
+        module = import_module(params.get("module", room.replace("/", ".")))
         name = FUNCTIONS.get(rule.name, rule.name)
         function = getattr(module, name, None) or getattr(module, room.rpartition("/")[2])
         signature = inspect.signature(function)

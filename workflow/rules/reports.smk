@@ -24,12 +24,14 @@ rule table:
             f"reports/tables/{SETTINGS['tables'][wildcards.table]['kind']}",
             kinds.modules(LAYOUT, "tables", wildcards.table),
         ),
-        kind=setting("tables/{table}/kind"),
+        module=lambda wildcards: kinds.kind_of(
+            LAYOUT, "tables", wildcards.table
+        ).__name__,
         settings=lambda wildcards: kinds.params(LAYOUT, "tables", wildcards.table),
     message:
         "Writing {wildcards.table}"
     script:
-        "../neural_shadows/reports/tables/{params.kind}.py"
+        "../neural_shadows/reports/write_report.py"
 
 
 rule figure:
@@ -55,12 +57,14 @@ rule figure:
             f"reports/figures/{SETTINGS['figures'][wildcards.figure]['kind']}",
             kinds.modules(LAYOUT, "figures", wildcards.figure),
         ),
-        kind=setting("figures/{figure}/kind"),
+        module=lambda wildcards: kinds.kind_of(
+            LAYOUT, "figures", wildcards.figure
+        ).__name__,
         settings=lambda wildcards: kinds.params(LAYOUT, "figures", wildcards.figure),
     message:
         "Drawing {wildcards.figure}"
     script:
-        "../neural_shadows/reports/figures/{params.kind}.py"
+        "../neural_shadows/reports/write_report.py"
 
 
 rule preview_scene:

@@ -5,7 +5,7 @@ from xml.etree import ElementTree
 import pandas as pd
 from PIL import Image
 
-from neural_shadows.reports.drawing.chart import add_tooltip, write_chart
+from neural_shadows.reports.drawing.chart import add_tooltip
 from neural_shadows.reports.drawing.style import new_figure, write_figure
 from neural_shadows.reports.page.figure_blocks import LARGEST_SVG, figure_blocks, inline_svg
 
@@ -50,7 +50,7 @@ def test_a_chart_s_own_data_can_be_saved(tmp_path):
     svg = tmp_path / "figure_4_1.svg"
     data = pd.DataFrame({"curve": ["a, b"], "loss": [0.5]})
     figure = new_figure("Loss", 3, 2)
-    write_chart(figure, svg.with_suffix(".png"), svg, data)
+    write_figure((figure, data), svg.with_suffix(".png"), svg)
     (block,) = figure_blocks([svg], {}, {})
     saved = unquote(block.files["figure_4_1.csv"].removeprefix("data:text/csv;charset=utf-8,"))
     pd.testing.assert_frame_equal(pd.read_csv(io.StringIO(saved)), data)
@@ -58,5 +58,5 @@ def test_a_chart_s_own_data_can_be_saved(tmp_path):
     assert "tabindex" not in block.html  # it has no point that the arrow keys could choose
     (point,) = figure.subplots().plot([1], [2], "o")
     add_tooltip(point, "a: 2")
-    write_chart(figure, svg.with_suffix(".png"), svg)
+    write_figure(figure, svg.with_suffix(".png"), svg)
     assert 'tabindex="0"' in figure_blocks([svg], {}, {})[0].html

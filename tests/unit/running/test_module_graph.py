@@ -8,6 +8,10 @@ from neural_shadows.running.module_graph import PACKAGE, digest, modules_of
 from neural_shadows.settings.kinds import kinds
 
 STAGES = [path for path in PACKAGE.rglob("*.py") if "(snakemake, " in path.read_text("utf-8")]
+# The modules of `write_report`.
+STAGES += [
+    path for room in ("tables", "figures") for path in PACKAGE.glob(f"reports/{room}/[a-z]*.py")
+]
 
 
 @pytest.mark.parametrize("stage", STAGES, ids=lambda path: path.stem)

@@ -10,7 +10,6 @@ import pytest
 from PIL import Image
 
 from neural_shadows.reports.data.table import Table, write_table
-from neural_shadows.reports.drawing.chart import write_chart
 from neural_shadows.reports.drawing.style import new_figure, provenance_of, write_figure
 from neural_shadows.reports.page.figure_blocks import figure_blocks
 from neural_shadows.reports.page.table_blocks import table_block
@@ -18,6 +17,7 @@ from neural_shadows.running import provenance
 from neural_shadows.running.origin import CHECKOUT, describe_origin
 
 SCRIPT = "workflow/neural_shadows/reports/tables/comparison.py"
+CLAIMS = "workflow/neural_shadows/reports/claims/write_claims.py"
 
 
 @pytest.fixture
@@ -30,11 +30,14 @@ def job(monkeypatch, tmp_path):
     job = SimpleNamespace(
         rule="table",
         input=named,
-        params={"settings": {"run": {"scale": "desk", "seed": 2026}}},
+        params={
+            "module": "neural_shadows.reports.tables.comparison",
+            "settings": {"run": {"scale": "desk", "seed": 2026}},
+        },
         wildcards={"table": "table_4_3"},
     )
     monkeypatch.setattr(provenance, "JOB", job)
-    main = SimpleNamespace(__file__=str(CHECKOUT / SCRIPT))
+    main = SimpleNamespace(__file__=str(CHECKOUT / CLAIMS))
     monkeypatch.setitem(provenance.sys.modules, "__main__", main)
     return job
 
@@ -62,6 +65,7 @@ def test_a_line_names_other_inputs_otherwise(job, tmp_path):
 def test_a_rule_without_wildcards_is_its_own_section(job):
     job.wildcards, job.rule, job.params = {}, "claims", {}
     record = provenance.describe_provenance()
+    assert record["script"] == CLAIMS
     assert record["section"] == "claims" and record["seed"] is None
     assert "seed" not in provenance.provenance_line(record)
 
@@ -81,10 +85,9 @@ def test_a_table_says_what_made_it(job, tmp_path):
     assert f"<code>{SCRIPT}</code>" in table_block(json_file, {}).made
 
 
-@pytest.mark.parametrize("write", [write_figure, write_chart])
-def test_a_figure_says_what_made_it(job, tmp_path, write):
+def test_a_figure_says_what_made_it(job, tmp_path):
     png, svg = tmp_path / "figure.png", tmp_path / "figure.svg"
-    write(new_figure("A figure", 4, 3), png, svg)
+    write_figure(new_figure("A figure", 4, 3), png, svg)
     record = provenance.describe_provenance()
     assert provenance_of(png) == record
     described = ElementTree.parse(svg).find(".//{http://purl.org/dc/elements/1.1/}description")

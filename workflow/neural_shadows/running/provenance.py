@@ -49,9 +49,10 @@ def describe_hardware(machine: dict[str, Any]) -> str:
 
 
 def _script() -> str:
-    """Path of the running script in the checkout."""
+    """Path of the running script in the checkout; of a table or figure, of its kind's module."""
     # Snakemake runs a copy, and sets `__file__` to the original.
-    path = Path(sys.modules["__main__"].__file__)
+    module = dict(JOB.params.items()).get("module", "__main__")
+    path = Path(sys.modules[module].__file__)
     return str(path.relative_to(CHECKOUT)) if path.is_relative_to(CHECKOUT) else path.name
 
 

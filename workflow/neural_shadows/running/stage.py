@@ -16,8 +16,8 @@ from neural_shadows.errors import InputError
 from neural_shadows.running import origin, progress, provenance
 
 # Used by Snakemake only: the digest of the code behind a result, files to be built along with a
-# table or beside an input, and the kind of a table or figure, which names its script.
-_RULE_ONLY = {"code", "beside", "kind"}
+# table or beside an input, the kind that names a script, and the module of a table's or figure's kind.
+_RULE_ONLY = {"code", "beside", "kind", "module"}
 
 INTERRUPTED = 130  # the shell's status after Ctrl-C
 
@@ -34,7 +34,7 @@ def run_stage(
     Args:
         job: Snakemake's script object (`input`, `output`, `params`, `log`, `rule`, …).
         function: takes keyword arguments named as in the rule: each named input (but `beside`),
-            output and param (but `code` and `kind`; those in `settings` one by one), and, if it has
+            output and param (but `_RULE_ONLY`; those in `settings` one by one), and, if it has
             arguments of these names, `threads` and wildcards.
         write: takes the function's result, and the outputs by name, which the function then does not.
     """

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 from report_samples import row
 
-from neural_shadows.reports.drawing.chart import points_with_tooltips, write_chart
+from neural_shadows.reports.drawing.chart import points_with_tooltips
 from neural_shadows.reports.drawing.point_labels import label_points
 from neural_shadows.reports.drawing.style import new_figure, write_figure
 from neural_shadows.reports.figures import loss, pareto, widths
@@ -228,7 +228,7 @@ def test_a_line_leads_to_a_name_that_another_point_is_as_near_to():
 def test_points_have_tooltips_in_the_svg(tmp_path):
     figure = new_figure("Chart", 4, 3)
     points_with_tooltips(figure.subplots(), [1, 2], [3, 4], ["one & <two>", "three"])
-    write_chart(figure, tmp_path / "c.png", tmp_path / "c.svg")
+    write_figure(figure, tmp_path / "c.png", tmp_path / "c.svg")
     root = ElementTree.parse(tmp_path / "c.svg").getroot()
     svg = "{http://www.w3.org/2000/svg}"
     groups = [group for group in root.iter(f"{svg}g") if group.get("class") == "says"]

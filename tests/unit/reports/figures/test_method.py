@@ -17,7 +17,6 @@ from neural_shadows.files.whole_files import write_json
 from neural_shadows.rays.poisson_disk import sphere_directions
 from neural_shadows.reports.drawing.mesh_slice import slice_mesh, slice_rays
 from neural_shadows.reports.drawing.preview import draw as draw_preview
-from neural_shadows.reports.drawing.style import write_figure
 from neural_shadows.reports.figures import view_directions
 
 SAMPLING = {"silhouette_resolution": 32, "min_quad": 1}
@@ -32,7 +31,7 @@ def draw(shape, kind, folder, up="y"):
     settings = {"sampling": SAMPLING, "scene_seed": 1}
     settings["scene"] = {"up": up, "ground": True, "light": SPHERE_OF_LIGHTS}
     module = import_module(f"neural_shadows.reports.figures.{kind}")
-    svg = written_figure(module.draw, folder, write_figure, **files, **settings)
+    svg = written_figure(module.draw, folder, **files, **settings)
     assert len(svg) < 600_000
     return imread(folder / "figure.png")[..., :3]
 

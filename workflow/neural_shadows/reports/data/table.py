@@ -15,7 +15,6 @@ from neural_shadows.files.whole_files import write_text
 from neural_shadows.reports.data.phrases import describe_run, titled
 from neural_shadows.running.bundles import argument_types, call
 from neural_shadows.running.provenance import describe_provenance, provenance_line
-from neural_shadows.running.stage import run_stage
 
 PARTING = ("scene", "light")  # first columns that part a table
 BETTER = {"↑": "high", "↓": "low"}  # by the end of a heading
@@ -74,16 +73,6 @@ class Table:
             heading: column if isinstance(column, Column) else Column([*column])
             for heading, column in self.columns.items()
         }
-
-
-def run_table(job: Any, function: Callable[..., Table]) -> None:
-    """Write a job's table.
-
-    Args:
-        function: takes the files and settings that its arguments name (`layout.report_inputs`, and
-            the settings of the table's entry).
-    """
-    run_stage(job, whole_table(function), write_table)
 
 
 def whole_table(function: Callable[..., Table]) -> Callable[..., Table]:

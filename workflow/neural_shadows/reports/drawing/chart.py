@@ -1,6 +1,6 @@
 """Charts with text as text, and tooltips at their points."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
@@ -8,10 +8,11 @@ from xml.etree import ElementTree
 import pandas as pd
 
 from neural_shadows.files.whole_files import whole_file
-from neural_shadows.reports.drawing.style import Axes, Figure, run_figure, write_figure
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 SVG = "http://www.w3.org/2000/svg"
 DATA = "data"
@@ -25,7 +26,7 @@ def add_tooltip(artist: "Artist", text: str) -> None:
 
 
 def points_with_tooltips(
-    axes: Axes, x: Iterable[float], y: Iterable[float], texts: Iterable[str], **look: Any
+    axes: "Axes", x: Iterable[float], y: Iterable[float], texts: Iterable[str], **look: Any
 ) -> None:
     """Draw points with a tooltip each."""
     look = {"linestyle": "", "marker": "o"} | look
@@ -35,7 +36,7 @@ def points_with_tooltips(
 
 
 def point_with_interval(
-    axes: Axes, x: float, value: float, ends: Sequence[float], text: str, **look: Any
+    axes: "Axes", x: float, value: float, ends: Sequence[float], text: str, **look: Any
 ) -> None:
     """Draw a point with its interval and a tooltip."""
     spread = [[value - ends[0]], [ends[1] - value]]
@@ -43,32 +44,19 @@ def point_with_interval(
     add_tooltip(bar.lines[0], text)
 
 
-def run_chart(job: Any, draw: Callable[..., Any]) -> None:
-    """Draw and write a job's chart.
-
-    Args:
-        draw: see `run_figure`; returns the figure, or also its data, see `write_chart`.
-    """
-
-    def write(drawn: Any, png: Path, svg: Path) -> None:
-        figure, data = drawn if isinstance(drawn, tuple) else (drawn, None)
-        write_chart(figure, png, svg, data)
-
-    run_figure(job, draw, write)
+def has_tooltips(figure: "Figure") -> bool:
+    """Check for an artist with a tooltip."""
+    return bool(figure.findobj(lambda artist: (artist.get_gid() or "").startswith(TOOLTIP)))
 
 
-def write_chart(figure: Figure, png: Path, svg: Path, data: pd.DataFrame | None = None) -> None:
-    """Write a figure with tooltips in its SVG.
+def finish_chart(svg: Path, data: pd.DataFrame | None) -> None:
+    """Put tooltips into a figure's SVG.
 
     These are `<title>` elements, shown by browsers at the points.
 
     Args:
         data: values without a table, held as CSV in the SVG (`data_of`).
     """
-    from matplotlib import rc_context
-
-    with rc_context({"svg.fonttype": "none"}):
-        write_figure(figure, png, svg)
     for prefix, address in (("", SVG), ("xlink", "http://www.w3.org/1999/xlink")):
         ElementTree.register_namespace(prefix, address)
     tree = ElementTree.parse(svg)

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import pandas as pd
 
 from neural_shadows.files.whole_files import whole_file
+from neural_shadows.reports.drawing.chart import finish_chart, has_tooltips
 from neural_shadows.running.bundles import argument_types, call
 from neural_shadows.running.provenance import describe_provenance
-from neural_shadows.running.stage import run_stage
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -106,22 +106,8 @@ def hollow(table: pd.DataFrame) -> list["Line2D"]:
     return [Line2D([], [], label="not learned", **look)] if any_hollow else []
 
 
-def run_figure(
-    job: Any, draw: Callable[..., Any], write: Callable[..., None] | None = None
-) -> None:
-    """Draw and write a job's figure.
-
-    Args:
-        draw: takes the files and settings that its arguments name (`layout.report_inputs`, and the
-            settings of the figure's entry), and `heading`, the title with the scale.
-        write: takes the figure, `png` and `svg`; by default `write_figure`.
-    """
-
-    run_stage(job, whole_figure(draw), write or write_figure)
-
-
 def whole_figure(draw: Callable[..., Any]) -> Callable[..., Any]:
-    """A function of a figure with its heading."""
+    """A function of a figure with `heading`, the title with the scale."""
 
     def figure(**arguments: Any) -> Any:
         heading = f"{arguments['title']} ({arguments['run']['scale']} scale)"
@@ -131,19 +117,28 @@ def whole_figure(draw: Callable[..., Any]) -> Callable[..., Any]:
     return figure
 
 
-def write_figure(figure: Figure, png: Path, svg: Path) -> None:
+def write_figure(drawn: "Figure | tuple[Figure, pd.DataFrame]", png: Path, svg: Path) -> None:
     """Write a figure as PNG and as SVG.
 
     Each is written whole or not at all, with pictures embedded, and its provenance as a description
     (`provenance_of`). The same figure gives the same bytes: no date, and identifiers from a fixed salt.
+    The SVG of a figure with tooltips has them, and its text as text (`finish_chart`).
+
+    Args:
+        drawn: a figure, with its values if no table has them (`chart.data_of`).
     """
     from matplotlib import rc_context
 
+    figure, data = drawn if isinstance(drawn, tuple) else (drawn, None)
+    chart = data is not None or has_tooltips(figure)
+    look = {"svg.hashsalt": "neural_shadows", "svg.fonttype": "none" if chart else "path"}
     made = {"Description": json.dumps(describe_provenance())}
-    with rc_context({"svg.hashsalt": "neural_shadows"}):
+    with rc_context(look):
         for path, metadata in ((png, made), (svg, made | {"Date": None})):
             with whole_file(path) as part:
                 figure.savefig(part, metadata=metadata)
+    if chart:
+        finish_chart(svg, data)
 
 
 def provenance_of(png: Path) -> dict[str, Any]:

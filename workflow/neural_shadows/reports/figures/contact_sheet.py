@@ -18,7 +18,6 @@ from neural_shadows.reports.drawing.style import (
     frame_picture,
     new_figure,
     note_below,
-    run_figure,
 )
 from neural_shadows.reports.tables import comparison, networks
 from neural_shadows.scenes.cameras import VIEW_SETS
@@ -116,7 +115,3 @@ def contact_sheet(
                 score = "equal" if identical(psnr) else f"{psnr:.1f}"
                 axes.set_xlabel(f"{frame.view[1] + 1}: {score}", fontsize=9, labelpad=2)
     return figure
-
-
-if "snakemake" in globals():
-    run_figure(snakemake, draw)

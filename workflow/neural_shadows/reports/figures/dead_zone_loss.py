@@ -7,7 +7,7 @@ import numpy as np
 from pydantic import Field
 
 from neural_shadows.evaluation.look import BLUE, ORANGE
-from neural_shadows.reports.drawing.style import GRID, Figure, run_figure
+from neural_shadows.reports.drawing.style import GRID, Figure
 from neural_shadows.sections.scene_figures import SceneFigure
 from neural_shadows.settings.records import SceneSettings
 
@@ -46,7 +46,3 @@ def draw(mesh_ply: Path, mesh_json: Path, title: str, scene: SceneSettings) -> F
     axes.grid(**GRID)
     axes.legend()
     return figure
-
-
-if "snakemake" in globals():
-    run_figure(snakemake, draw)

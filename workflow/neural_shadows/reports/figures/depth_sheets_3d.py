@@ -10,7 +10,7 @@ from pydantic import Field
 from neural_shadows.evaluation.look import FALSE_SHADOW, LIGHT_LEAK
 from neural_shadows.reports.drawing import space
 from neural_shadows.reports.drawing.hero_view import hero_view
-from neural_shadows.reports.drawing.style import Figure, run_figure
+from neural_shadows.reports.drawing.style import Figure
 from neural_shadows.sections.any_report import AnyFigure
 from neural_shadows.sections.experiments import RayExperimentName
 from neural_shadows.settings.records import SceneSettings
@@ -99,7 +99,3 @@ def sheet_of(depths: np.ndarray, points: np.ndarray, error: np.ndarray) -> "pyvi
     sheet = pyvista.PolyData.from_regular_faces(points, quads)
     sheet["error"] = error
     return sheet.remove_unused_points()
-
-
-if "snakemake" in globals():
-    run_figure(snakemake, draw)

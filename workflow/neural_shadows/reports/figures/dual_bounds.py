@@ -5,7 +5,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from neural_shadows.reports.drawing.style import Figure, legend_below, run_figure
+from neural_shadows.reports.drawing.style import Figure, legend_below
 from neural_shadows.sections.scene_figures import SceneFigure
 from neural_shadows.settings.records import SceneSettings
 
@@ -31,7 +31,3 @@ def draw(mesh_ply: Path, mesh_json: Path, title: str, scene: SceneSettings) -> F
         drawing.draw_outline(axes, cut)
     legend_below(figure)
     return figure
-
-
-if "snakemake" in globals():
-    run_figure(snakemake, draw)

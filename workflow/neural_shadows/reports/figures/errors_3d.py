@@ -12,7 +12,7 @@ from neural_shadows.evaluation.look import FALSE_SHADOW, LIGHT_LEAK
 from neural_shadows.evaluation.registry import unbiased
 from neural_shadows.layout.layout import Layout
 from neural_shadows.reports.drawing import space
-from neural_shadows.reports.drawing.style import Figure, run_figure
+from neural_shadows.reports.drawing.style import Figure
 from neural_shadows.reports.tables import comparison, networks
 from neural_shadows.sections.table_figures import MethodsFigure
 from neural_shadows.settings.records import Row, SceneSettings
@@ -106,7 +106,3 @@ def wrong_points(
     near = (error != 0) & (np.linalg.norm(p, axis=1) < 1.1 * space.REACH)
     shown = np.flatnonzero(near)[:: 1 + np.count_nonzero(near) // MOST_POINTS]
     return p[shown], error[shown], np.count_nonzero(error) / max(len(error), 1)
-
-
-if "snakemake" in globals():
-    run_figure(snakemake, draw)

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from neural_shadows.reports.drawing import space
 from neural_shadows.reports.drawing.hero_view import hero_view
-from neural_shadows.reports.drawing.style import Figure, run_figure
+from neural_shadows.reports.drawing.style import Figure
 from neural_shadows.sections.scene_figures import FieldFigure
 from neural_shadows.settings.records import SceneSettings
 
@@ -83,7 +83,3 @@ def learned_surface(field: "OccupancyFieldNetwork") -> "pyvista.PolyData":
     grid = pyvista.ImageData(dimensions=logits.shape, spacing=spacing, origin=(-1, -1, -1))
     grid["logit"] = logits.ravel(order="F")
     return grid.contour([0.0], "logit")
-
-
-if "snakemake" in globals():
-    run_figure(snakemake, draw)

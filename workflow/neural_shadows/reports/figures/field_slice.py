@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from pydantic import Field
 
-from neural_shadows.reports.drawing.style import Axes, Figure, legend_below, new_figure, run_figure
+from neural_shadows.reports.drawing.style import Axes, Figure, legend_below, new_figure
 from neural_shadows.sections.scene_figures import FieldFigure
 from neural_shadows.settings.records import SceneSettings
 
@@ -119,7 +119,3 @@ def _show(
     draw_outline(axes, cut)
     axes.set(xlim=extent[:2], ylim=extent[2:], xticks=[], yticks=[])
     return image
-
-
-if "snakemake" in globals():
-    run_figure(snakemake, draw)

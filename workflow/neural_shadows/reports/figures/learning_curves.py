@@ -22,7 +22,6 @@ from neural_shadows.reports.drawing import style
 from neural_shadows.reports.drawing.chart import (
     point_with_interval,
     points_with_tooltips,
-    run_chart,
 )
 from neural_shadows.reports.drawing.style import Axes, Figure
 from neural_shadows.reports.tables import learning_curves
@@ -203,7 +202,3 @@ def _format_axes(axes: Axes, metric: str, samples: str) -> None:
         axes.set_yscale("log")
         style.plain_numbers(axes.yaxis)
     axes.grid(which="both", **style.GRID)
-
-
-if "snakemake" in globals():
-    run_chart(snakemake, draw)

@@ -14,7 +14,7 @@ from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.tables import networks
 from neural_shadows.reports.data.digits import short
 from neural_shadows.reports.drawing import style
-from neural_shadows.reports.drawing.chart import points_with_tooltips, run_chart
+from neural_shadows.reports.drawing.chart import points_with_tooltips
 from neural_shadows.reports.drawing.style import Figure
 from neural_shadows.sections.any_report import AnyFigure
 from neural_shadows.sections.experiments import RayExperimentName
@@ -141,7 +141,3 @@ def loss_figure(
     axes.grid(which="both", **style.GRID)
     axes.legend()
     return figure
-
-
-if "snakemake" in globals():
-    run_chart(snakemake, draw)

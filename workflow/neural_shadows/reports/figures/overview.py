@@ -8,7 +8,7 @@ from pydantic import Field
 
 from neural_shadows.evaluation.look import BLUE, ORANGE
 from neural_shadows.rays.streams import DIRECTIONS
-from neural_shadows.reports.drawing.style import Axes, Figure, legend_below, run_figure
+from neural_shadows.reports.drawing.style import Axes, Figure, legend_below
 from neural_shadows.sections.scene_figures import SamplingFigure
 from neural_shadows.settings.records import SamplingSettings, SceneSettings
 
@@ -74,7 +74,3 @@ def _draw_query(axes: Axes, cut: "MeshSlice") -> None:
         axes.plot(*(o + t * d), "o", color=colour, zorder=4)
         style = {"xytext": (5, 4), "textcoords": "offset points", "fontsize": 12, "zorder": 5}
         axes.annotate(text, o + t * d, **style)
-
-
-if "snakemake" in globals():
-    run_figure(snakemake, draw)

@@ -17,7 +17,7 @@ from neural_shadows.reports.data.method_look import LOOKS, look_of
 from neural_shadows.reports.data.published import NETWORKS
 from neural_shadows.reports.data.table import read_table, with_ends
 from neural_shadows.reports.drawing import style
-from neural_shadows.reports.drawing.chart import point_with_interval, run_chart
+from neural_shadows.reports.drawing.chart import point_with_interval
 from neural_shadows.reports.drawing.style import Axes, Figure
 from neural_shadows.reports.tables import networks
 from neural_shadows.sections.table_figures import RowsFigure
@@ -180,7 +180,3 @@ def _draw_lines(axes: Axes, points: pd.DataFrame, methods: pd.DataFrame, errors:
         axes.axvline(cost, color=GREY, linewidth=0.7, zorder=0)
         transform = axes.get_xaxis_transform()
         axes.text(cost, 0.02, " ray traced: exact", transform=transform, rotation=90, fontsize=7)
-
-
-if "snakemake" in globals():
-    run_chart(snakemake, draw)

@@ -15,7 +15,6 @@ from neural_shadows.reports.drawing.style import (
     legend_below,
     new_figure,
     plain_numbers,
-    run_figure,
 )
 from neural_shadows.sections.any_report import AnyFigure, Chapter
 from neural_shadows.sections.frame_sets import FrameSetName
@@ -127,7 +126,3 @@ def _medians(pairs: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, np.ndarr
     modelled = [pairs[1][bins == k] for k in range(1, len(edges))]
     medians = [np.median(widths) if len(widths) >= FEWEST else np.nan for widths in modelled]
     return np.sqrt(edges[:-1] * edges[1:]), np.array(medians)
-
-
-if "snakemake" in globals():
-    run_figure(snakemake, draw)

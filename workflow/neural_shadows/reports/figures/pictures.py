@@ -26,7 +26,6 @@ from neural_shadows.reports.drawing.style import (
     frame_picture,
     new_figure,
     note_below,
-    run_figure,
 )
 from neural_shadows.reports.tables import comparison, networks
 from neural_shadows.sections.scenes import ViewSet
@@ -172,7 +171,3 @@ def _write_head(axes: Axes, name: str, look: Look, scores: str, letters: int) ->
     transform = axes.transAxes + up
     style = {"color": look.colour, "markersize": 8, "clip_on": False}
     axes.plot(0.025, 1, marker=look.marker, transform=transform, **style)
-
-
-if "snakemake" in globals():
-    run_figure(snakemake, draw)

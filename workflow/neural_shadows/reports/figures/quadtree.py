@@ -5,7 +5,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from neural_shadows.reports.drawing.style import Figure, note_below, run_figure
+from neural_shadows.reports.drawing.style import Figure, note_below
 from neural_shadows.sections.scene_figures import SamplingFigure
 from neural_shadows.settings.records import SamplingSettings, SceneSettings
 
@@ -42,7 +42,3 @@ def draw(
         "outline.\nOrange: the bounding sphere. So most rays start near the shadow's boundary.",
     )
     return figure
-
-
-if "snakemake" in globals():
-    run_figure(snakemake, draw)

@@ -10,7 +10,7 @@ from neural_shadows.evaluation.look import BLUE, COLOURS, ORANGE
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.layout.layout import Layout
 from neural_shadows.reports.drawing import space
-from neural_shadows.reports.drawing.style import Figure, run_figure
+from neural_shadows.reports.drawing.style import Figure
 from neural_shadows.scenes.lights import arc_directions, lowest_elevation
 from neural_shadows.sections.scene_figures import SamplingFigure
 from neural_shadows.settings.records import SceneSettings
@@ -106,7 +106,3 @@ def light_domain(scene: "Scene") -> "pyvista.DataSet":
     # Elevations from the lowest on; a sphere's angles are counted from its direction.
     angles = {"end_phi": 90 - np.degrees(lowest), "theta_resolution": 90, "phi_resolution": 40}
     return pyvista.Sphere(radius=1.01, direction=scene.up, **angles)
-
-
-if "snakemake" in globals():
-    run_figure(snakemake, draw)

@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from neural_shadows.evaluation.answers import flicker_name, read_answer
-from neural_shadows.reports.drawing.style import Figure, new_figure, note_below, run_figure
+from neural_shadows.reports.drawing.style import Figure, new_figure, note_below
 from neural_shadows.reports.tables import screen_temporal
 from neural_shadows.sections.table_figures import TableFigure
 
@@ -73,7 +73,3 @@ def flicker_figure(
         "point's pixel\nin the later frame. Purple is stable, gold flickers; numbers are means.",
     )
     return figure
-
-
-if "snakemake" in globals():
-    run_figure(snakemake, draw)

@@ -10,7 +10,7 @@ from neural_shadows.evaluation.look import COLOURS
 from neural_shadows.reports.data.digits import short
 from neural_shadows.reports.data.phrases import TEXTS
 from neural_shadows.reports.data.table import read_table
-from neural_shadows.reports.drawing.chart import add_tooltip, run_chart
+from neural_shadows.reports.drawing.chart import add_tooltip
 from neural_shadows.reports.drawing.style import GRID, Axes, Figure, legend_below, new_figure
 from neural_shadows.reports.tables import screen_parts
 from neural_shadows.reports.tables.screen_parts import NAMES, PRINTED
@@ -76,7 +76,3 @@ def _draw_levels(axes: Axes, table: pd.DataFrame, share: str, ms: str) -> None:
     axes.margins(y=0.08)
     axes.grid(axis="y", **GRID)
     axes.set_axisbelow(True)
-
-
-if "snakemake" in globals():
-    run_chart(snakemake, draw)

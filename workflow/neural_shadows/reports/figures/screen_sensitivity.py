@@ -8,7 +8,7 @@ from pydantic import Field
 
 from neural_shadows.evaluation.look import BLUE
 from neural_shadows.reports.data.soft_frames import learned_rows
-from neural_shadows.reports.drawing.chart import add_tooltip, run_chart
+from neural_shadows.reports.drawing.chart import add_tooltip
 from neural_shadows.reports.drawing.style import GRID, Figure, new_figure, note_below
 from neural_shadows.reports.tables import screen_features
 from neural_shadows.reports.tables.screen_features import LEAST_SHARE
@@ -78,7 +78,3 @@ def sensitivity_figure(table: pd.DataFrame, title: str) -> Figure:
         "of the output\nwith noise of a tenth of a feature's standard deviation.",
     )
     return figure
-
-
-if "snakemake" in globals():
-    run_chart(snakemake, draw)

@@ -14,7 +14,7 @@ from neural_shadows.reports.data.frame_means import ERROR_COLUMNS, with_shown_er
 from neural_shadows.reports.data.lights import light_name
 from neural_shadows.reports.data.table import read_table
 from neural_shadows.reports.drawing import style
-from neural_shadows.reports.drawing.chart import point_with_interval, run_chart
+from neural_shadows.reports.drawing.chart import point_with_interval
 from neural_shadows.reports.drawing.style import Figure
 from neural_shadows.reports.tables import soft_methods
 from neural_shadows.sections.table_figures import RadiiFigure
@@ -94,7 +94,3 @@ def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str
     panels[0].set_ylabel(f"{name} of visibility,\nlower is better (bars: 95 % intervals)")
     style.label_panels(panel_rows, 7)
     return figure
-
-
-if "snakemake" in globals():
-    run_chart(snakemake, draw)

@@ -11,7 +11,7 @@ from neural_shadows.frames.light_size import shown_radii
 from neural_shadows.layout import frame_sets, kinds
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.tables import frame_set, unique
-from neural_shadows.reports.drawing.style import Figure, run_figure
+from neural_shadows.reports.drawing.style import Figure
 from neural_shadows.reports.tables import soft_methods, soft_summary
 from neural_shadows.sections.frame_sets import measured_scenes
 from neural_shadows.sections.sections import Sections
@@ -110,7 +110,3 @@ def draw(
     paths = {path.stem: path for path in soft_answers}
     pictures = read_pictures(part, {method: paths[method] for method in labels}, radii)
     return crop_sheet(pictures, labels, f"{title} ({run['scale']} scale)", part.parent.name)
-
-
-if "snakemake" in globals():
-    run_figure(snakemake, draw)

@@ -12,7 +12,7 @@ from neural_shadows.evaluation.registry import look_of
 from neural_shadows.reports.data.frame_means import ERROR_COLUMNS, with_shown_errors
 from neural_shadows.reports.data.table import read_table
 from neural_shadows.reports.drawing import style
-from neural_shadows.reports.drawing.chart import add_tooltip, run_chart
+from neural_shadows.reports.drawing.chart import add_tooltip
 from neural_shadows.reports.drawing.style import Figure
 from neural_shadows.reports.tables import soft_summary
 from neural_shadows.sections.sections import Sections
@@ -67,7 +67,3 @@ def radii_figure(table: pd.DataFrame, *, title: str) -> Figure:
     axes.grid(**style.GRID)
     style.legend_below(figure, columns=3)
     return figure
-
-
-if "snakemake" in globals():
-    run_chart(snakemake, draw)

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.layout.layout import Layout
-from neural_shadows.reports.drawing.style import Figure, new_figure, note_below, run_figure
+from neural_shadows.reports.drawing.style import Figure, new_figure, note_below
 from neural_shadows.reports.tables import sun_hours
 from neural_shadows.sections.table_figures import TableFigure
 
@@ -86,7 +86,3 @@ def _cropped(path: Path) -> tuple[np.ndarray, np.ndarray]:
         first, last = (places[0], places[-1] + 1) if len(places) else (0, hours.shape[axis])
         ends.append(slice(max(first - margin, 0), last + margin))
     return hours[tuple(ends)], sky[tuple(ends)]
-
-
-if "snakemake" in globals():
-    run_figure(snakemake, draw)

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from neural_shadows.evaluation.look import BLUE, ORANGE
 from neural_shadows.rays.streams import DIRECTIONS
-from neural_shadows.reports.drawing.style import GRID, Figure, new_figure, run_figure
+from neural_shadows.reports.drawing.style import GRID, Figure, new_figure
 from neural_shadows.sections.any_report import AnyFigure
 
 DEGREES = 80  # of the spectra: 1000 Poisson-disk directions have their ring near degree 50
@@ -67,7 +67,3 @@ def angular_power_spectrum(directions: np.ndarray, degrees: int) -> np.ndarray:
     # Row by row: all pairs of 1000 directions at 80 degrees would take 320 MB.
     rows = (legvander(x[i + 1 :] @ x[i], degrees).sum(0) for i in range(len(x)))
     return 1 + 2 * sum(rows)[1:] / len(x)
-
-
-if "snakemake" in globals():
-    run_figure(snakemake, draw)

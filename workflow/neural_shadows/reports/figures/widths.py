@@ -12,7 +12,7 @@ from neural_shadows.reports.data.digits import short
 from neural_shadows.reports.data.table import read_table, with_ends
 from neural_shadows.reports.data.timing import FRAME_MS, OWN_MS
 from neural_shadows.reports.drawing import style
-from neural_shadows.reports.drawing.chart import add_tooltip, run_chart
+from neural_shadows.reports.drawing.chart import add_tooltip
 from neural_shadows.reports.drawing.style import Axes, Figure
 from neural_shadows.reports.tables import frame_times
 from neural_shadows.sections.sections import Sections
@@ -113,7 +113,3 @@ def _draw_line(axes: Axes, rows: pd.DataFrame, columns: Sequence[str], **look: s
         add_tooltip(
             point, f"{row.scene}, {row.method}: {short(row.value)} ({columns[0].replace('_', ' ')})"
         )
-
-
-if "snakemake" in globals():
-    run_chart(snakemake, draw)

@@ -19,7 +19,7 @@ from neural_shadows.reports.data.equivalent_maps import equivalent_maps
 from neural_shadows.reports.data.inputs import read_biases
 from neural_shadows.reports.data.learned import THESIS_METRICS, margins
 from neural_shadows.reports.data.published import add_printed, printed_table, read_published
-from neural_shadows.reports.data.table import Column, Table, run_table
+from neural_shadows.reports.data.table import Column, Table
 from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.rows import TableOfOneScene
 from neural_shadows.settings.records import Row, Run, SceneInfo
@@ -155,7 +155,3 @@ def cells(
     for metric in more_metrics:
         columns[metrics_by_key()[metric].heading] = quality_cells.quality_column(table, metric)
     return columns
-
-
-if "snakemake" in globals():
-    run_table(snakemake, table)

@@ -13,7 +13,7 @@ from neural_shadows.reports.data.inputs import read_meshes
 from neural_shadows.reports.data.learned import margins
 from neural_shadows.reports.data.published import add_printed, read_published
 from neural_shadows.reports.data.quality import scenes_quality
-from neural_shadows.reports.data.table import Table, intervals, numbers, run_table, with_ends
+from neural_shadows.reports.data.table import Table, intervals, numbers, with_ends
 from neural_shadows.sections.rows import TableByScene
 from neural_shadows.settings.records import Row, Run
 
@@ -101,7 +101,3 @@ def table(
     ]
     title = phrases.titled(title, published)
     return Table(table, columns, notes, title, text_columns=2)
-
-
-if "snakemake" in globals():
-    run_table(snakemake, table)

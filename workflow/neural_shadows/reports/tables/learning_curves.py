@@ -35,7 +35,7 @@ from neural_shadows.reports.data.frame_curves import FURTHER, frames_table
 from neural_shadows.reports.data.inputs import by_folder, read_meshes
 from neural_shadows.reports.data.published import read_published
 from neural_shadows.reports.data.quality import values_by_view
-from neural_shadows.reports.data.table import Column, Table, number_cells, run_table
+from neural_shadows.reports.data.table import Column, Table, number_cells
 from neural_shadows.reports.data.trained import THESIS_SAMPLES, Row, Trained
 from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.experiments import ScreenExperimentName
@@ -314,7 +314,3 @@ def _interval(line: pd.Series, form: str) -> str:
         return ""
     ends = "" if np.isnan(low) else f" [{form}, {form}]".format(low, high)
     return form.format(value) + ends
-
-
-if "snakemake" in globals():
-    run_table(snakemake, table)

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from neural_shadows.reports.data.inputs import read_sizes
 from neural_shadows.reports.data.published import add_printed
-from neural_shadows.reports.data.table import Table, numbers, run_table
+from neural_shadows.reports.data.table import Table, numbers
 from neural_shadows.sections.rows import TableOfOneScene
 from neural_shadows.settings.records import Row
 
@@ -40,7 +40,3 @@ def table(
         "map of N² texels: 4 N² bytes, 2 N² with 16 bits.",
     ]
     return Table(table, columns, notes)
-
-
-if "snakemake" in globals():
-    run_table(snakemake, table)

@@ -27,7 +27,6 @@ from neural_shadows.reports.data.table import (
     filled,
     number_cells,
     numbers,
-    run_table,
 )
 from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.rows import TableByScene
@@ -208,7 +207,3 @@ def cells(table: pd.DataFrame) -> dict[str, Column | Iterable[str]]:
     if table["device"].nunique() > 1:
         columns["device"] = table["device"].fillna("")
     return filled(columns)
-
-
-if "snakemake" in globals():
-    run_table(snakemake, table)

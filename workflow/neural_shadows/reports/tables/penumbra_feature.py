@@ -10,7 +10,7 @@ from pydantic import Field
 from neural_shadows.metrics.kinds.errors_of_visibility import LIT, UMBRA
 from neural_shadows.reports.data.lights import light_name, radii_of, unit_of
 from neural_shadows.reports.data.phrases import TEXTS
-from neural_shadows.reports.data.table import Table, numbers, run_table
+from neural_shadows.reports.data.table import Table, numbers
 from neural_shadows.sections.frame_tables import FramesTable
 
 if TYPE_CHECKING:
@@ -99,7 +99,3 @@ def feature_table(counts: np.ndarray) -> pd.DataFrame:
         named = {f"{where}_share": share for where, share in zip(WHERE, shares)}
         records.append({"light": light, **dict(zip(WHERE, pixels)), **named})
     return pd.DataFrame(records)
-
-
-if "snakemake" in globals():
-    run_table(snakemake, table)

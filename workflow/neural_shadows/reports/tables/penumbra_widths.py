@@ -9,7 +9,7 @@ import pandas as pd
 from pydantic import Field
 
 from neural_shadows.metrics.intervals import t_interval
-from neural_shadows.reports.data.table import Table, intervals, numbers, run_table, with_ends
+from neural_shadows.reports.data.table import Table, intervals, numbers, with_ends
 from neural_shadows.sections.frame_tables import FramesTable
 
 WIDE = 95  # percentile of widths: the paper chooses the network's levels by it
@@ -100,7 +100,3 @@ def _wide_ratio(frames: Sequence[np.ndarray]) -> dict[str, float]:
     ratios = [np.divide(*np.percentile(frame, WIDE, axis=1)) for frame in frames]
     interval = np.exp(t_interval(np.log(ratios))[:3])
     return dict(zip(names, interval if len(frames) > 1 else (interval[0], np.nan, np.nan)))
-
-
-if "snakemake" in globals():
-    run_table(snakemake, table)

@@ -12,7 +12,7 @@ from neural_shadows.reports.data.digits import short
 from neural_shadows.reports.data.frame_means import squared_errors
 from neural_shadows.reports.data.published import printed_column, read_published, with_printed
 from neural_shadows.reports.data.soft_frames import ABOUT_NULLS, TrainedFrames, learned_rows
-from neural_shadows.reports.data.table import Table, filled, number_cells, numbers, run_table
+from neural_shadows.reports.data.table import Table, filled, number_cells, numbers
 from neural_shadows.sections.frame_tables import ColumnsTable
 from neural_shadows.settings.records import TrainingRecord
 
@@ -114,7 +114,3 @@ def _describe_learning(records: Mapping[str, TrainingRecord], labels: Mapping[st
         "An error that falls until the end is of a network short of training. Squared error × 10⁻⁴ on "
         f"validation frames, mean over all lights, by steps: {'; '.join(texts)}."
     )
-
-
-if "snakemake" in globals():
-    run_table(snakemake, table)

@@ -12,7 +12,7 @@ from pydantic import Field
 
 from neural_shadows.reports.data.frame_means import OFF_EDGES, mean_with_interval, squared_errors
 from neural_shadows.reports.data.soft_frames import TrainedFrames, learned_rows
-from neural_shadows.reports.data.table import Table, filled, number_cells, run_table
+from neural_shadows.reports.data.table import Table, filled, number_cells
 from neural_shadows.sections.frame_tables import NetworksTable
 from neural_shadows.settings.records import TrainingRecord
 
@@ -160,7 +160,3 @@ def _describe_training(has_ratio: bool) -> list[str]:
 
 def _frames_name(frames: str, learned: bool) -> str:
     return frames if learned or frames == VALIDATION else f"{frames} (unseen)"
-
-
-if "snakemake" in globals():
-    run_table(snakemake, table)

@@ -17,7 +17,6 @@ from neural_shadows.reports.data.table import (
     filled,
     intervals,
     numbers,
-    run_table,
     with_ends,
 )
 from neural_shadows.sections.frame_tables import ColumnsTable
@@ -114,7 +113,3 @@ def features_table(
 
 def _sorted(features: Mapping[str, FeatureShare]) -> list[tuple[str, FeatureShare]]:
     return sorted(features.items(), key=lambda item: -item[1]["share"])
-
-
-if "snakemake" in globals():
-    run_table(snakemake, table)

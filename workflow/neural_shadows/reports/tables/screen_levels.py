@@ -9,7 +9,7 @@ from pydantic import Field
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports.data import screen_profiles
 from neural_shadows.reports.data.published import printed_column, read_published, with_printed
-from neural_shadows.reports.data.table import Table, filled, numbers, run_table
+from neural_shadows.reports.data.table import Table, filled, numbers
 from neural_shadows.sections.frame_tables import ProfileTable
 from neural_shadows.settings.records import Profile
 
@@ -82,7 +82,3 @@ def level_table(
         printed = printed_column(printed_numbers, published, rows, name)
         table = with_printed(table, name, printed, comparable=same or name in OF_ANY_SIZE)
     return table
-
-
-if "snakemake" in globals():
-    run_table(snakemake, table)

@@ -13,7 +13,7 @@ from neural_shadows.networks.screen_space.screen_forms import layers_of
 from neural_shadows.networks.screen_space.widths import total
 from neural_shadows.networks.settings.networks import screen_network
 from neural_shadows.reports.data.published import printed_column, read_published, with_printed
-from neural_shadows.reports.data.table import Table, filled, numbers, run_table
+from neural_shadows.reports.data.table import Table, filled, numbers
 from neural_shadows.sections.frame_tables import NsmTable
 from neural_shadows.sections.networks import ScreenNetworkName
 from neural_shadows.settings.base import Model, Name, section_or
@@ -113,7 +113,3 @@ def network_table(
         printed = printed_column(printed_numbers, published, rows, name)
         table = with_printed(table, name, printed)
     return table
-
-
-if "snakemake" in globals():
-    run_table(snakemake, table)

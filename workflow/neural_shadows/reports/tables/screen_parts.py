@@ -10,7 +10,7 @@ from pydantic import Field
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports.data import screen_profiles
 from neural_shadows.reports.data.published import printed_column, read_published, with_printed
-from neural_shadows.reports.data.table import Table, filled, numbers, run_table
+from neural_shadows.reports.data.table import Table, filled, numbers
 from neural_shadows.sections.frame_tables import ProfileTable
 from neural_shadows.settings.records import Profile
 
@@ -88,7 +88,3 @@ def part_table(profile: Profile, printed_numbers: pd.Series, published: str | No
     table["printed_share"] = printed / np.nansum(printed)
     same = screen_profiles.of_printed_size(profile, printed_numbers)
     return with_printed(table, "ms", printed, comparable=same)
-
-
-if "snakemake" in globals():
-    run_table(snakemake, table)

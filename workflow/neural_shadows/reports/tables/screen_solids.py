@@ -10,7 +10,7 @@ from neural_shadows.metrics.registry import metrics
 from neural_shadows.reports.data.frame_means import describe_units, mean_with_interval
 from neural_shadows.reports.data.quality_cells import metric_column
 from neural_shadows.reports.data.soft_frames import TrainedFrames, learned_rows
-from neural_shadows.reports.data.table import Table, run_table
+from neural_shadows.reports.data.table import Table
 from neural_shadows.sections.frame_tables import NetworksTable
 
 
@@ -80,7 +80,3 @@ def solids_table(errors: pd.DataFrame, soft: TrainedFrames) -> pd.DataFrame:
 
 def _values(own: pd.Series, metric: str) -> pd.Series:
     return own[own.index.get_level_values("metric") == metric]
-
-
-if "snakemake" in globals():
-    run_table(snakemake, table)

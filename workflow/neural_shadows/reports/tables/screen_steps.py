@@ -33,7 +33,6 @@ from neural_shadows.reports.data.table import (
     intervals,
     number_cells,
     numbers,
-    run_table,
     with_ends,
 )
 from neural_shadows.sections.experiments import ScreenExperimentName
@@ -220,7 +219,3 @@ def _printed(table: pd.DataFrame, name: str, form: str) -> list[str]:
     printed_numbers = number_cells(table[f"printed_{name}"], form)
     bounds = number_cells(table[f"printed_{name}_above"], f"> {form}")
     return [number or bound for number, bound in zip(printed_numbers, bounds)]
-
-
-if "snakemake" in globals():
-    run_table(snakemake, table)

@@ -9,7 +9,7 @@ from pydantic import Field
 from neural_shadows.metrics.registry import metrics
 from neural_shadows.reports.data.quality_cells import metric_column
 from neural_shadows.reports.data.soft_frames import TrainedFrames, learned_rows
-from neural_shadows.reports.data.table import Table, numbers, run_table
+from neural_shadows.reports.data.table import Table, numbers
 from neural_shadows.sections.frame_tables import MethodsTable
 from neural_shadows.settings.base import Name
 
@@ -86,7 +86,3 @@ def _by_kind(errors: pd.DataFrame, metric: str, prefix: str) -> dict[str, float]
 
 def _mean(errors: pd.DataFrame, metric: str) -> float:
     return float(errors[errors["metric"] == metric]["value"].mean())
-
-
-if "snakemake" in globals():
-    run_table(snakemake, table)

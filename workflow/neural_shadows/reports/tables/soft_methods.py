@@ -27,7 +27,7 @@ from neural_shadows.reports.data.lights import light_name
 from neural_shadows.reports.data.quality_cells import metric_column
 from neural_shadows.reports.data.soft_costs import cost, describe_bytes, describe_times
 from neural_shadows.reports.data.soft_frames import SoftFrames, describe_trainings, read_trainings
-from neural_shadows.reports.data.table import Table, filled, numbers, run_table
+from neural_shadows.reports.data.table import Table, filled, numbers
 from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.frame_tables import MethodsTable
 from neural_shadows.sections.sections import Sections
@@ -245,7 +245,3 @@ def _describe_constants(chosen: Mapping[str, Tuned], labels: Mapping[str, str]) 
     if not sentences:
         return []
     return ["Constants are the best on validation frames.", *sentences]
-
-
-if "snakemake" in globals():
-    run_table(snakemake, table)

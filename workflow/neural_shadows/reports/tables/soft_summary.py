@@ -31,7 +31,7 @@ from neural_shadows.reports.data.published import printed_value, read_published,
 from neural_shadows.reports.data.quality_cells import metric_column
 from neural_shadows.reports.data.soft_costs import cost, describe_times
 from neural_shadows.reports.data.soft_frames import SoftFrames, describe_trainings, read_trainings
-from neural_shadows.reports.data.table import Column, Table, filled, numbers, run_table
+from neural_shadows.reports.data.table import Column, Table, filled, numbers
 from neural_shadows.sections.frame_tables import MethodsTable
 from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.base import Model, Name, Text, section_or
@@ -301,7 +301,3 @@ def _describe_sequences(errors: pd.DataFrame) -> str:
         "alone. The exact shadow's is the true change. Blur lowers this error, so the squared error "
         "stands beside it."
     )
-
-
-if "snakemake" in globals():
-    run_table(snakemake, table)

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.layout.layout import Layout
-from neural_shadows.reports.data.table import Table, numbers, run_table
+from neural_shadows.reports.data.table import Table, numbers
 from neural_shadows.sections.any_report import AnyTable, Chapter
 from neural_shadows.sections.scenes import MeshName
 
@@ -101,7 +101,3 @@ def _row(name: str, record: dict[str, Any]) -> dict[str, Any]:
         "ratio": embree["seconds"] / by_field["seconds"],
         "ratio_with_build": (embree["seconds"] + embree["build_seconds"]) / whole,
     }
-
-
-if "snakemake" in globals():
-    run_table(snakemake, table)
