@@ -67,7 +67,7 @@ def _chapter(config: Sections, figure: str) -> Chapter:
     if re.fullmatch(r"figure_\d+_\d+", figure):
         return "thesis"
     table = getattr(config.figures[figure], "table", None)
-    return config.tables[table].chapter_of() if table else config.figures[figure].chapter
+    return config.tables[table].chapter_of() if table else config.figures[figure].own_chapter
 
 
 def _scene(config: Sections, name: str) -> Section:

@@ -31,6 +31,8 @@ class AnyReport(Model):
 class AnyTable(AnyReport):
     """Common base of tables."""
 
+    own_chapter: ClassVar[Chapter] = "thesis"  # of the page
+
     title: str = Field(min_length=1, description="heading of the table")
     published: str | None = Field(
         None, pattern=r"^4\.[1-7]$", description="its number in the thesis"
@@ -45,18 +47,14 @@ class AnyTable(AnyReport):
 
     def chapter_of(self) -> Chapter:
         """Chapter of the page."""
-        return self.chapter or self.usual_chapter()
-
-    def usual_chapter(self) -> Chapter:
-        """Chapter of its kind."""
-        return "thesis"
+        return self.chapter or self.own_chapter
 
 
 class AnyFigure(AnyReport):
     """Common base of figures."""
 
     # Of the page, without a number of the thesis and without a table, whose chapter it has.
-    chapter: ClassVar[Chapter] = "extensions"
+    own_chapter: ClassVar[Chapter] = "extensions"
     needs_opengl: ClassVar[bool] = False  # for drawing
     folded: ClassVar[bool] = False  # collapsed on the page
 

@@ -7,7 +7,7 @@ from pydantic import Field
 from neural_shadows.evaluation.registry import FRAME_METHODS, frame_method
 from neural_shadows.frames.feature_names import TRACED, buffers_of
 from neural_shadows.rendering.light_shape import SPHERE
-from neural_shadows.sections.any_report import AnyTable, Chapter
+from neural_shadows.sections.any_report import AnyTable
 from neural_shadows.sections.experiments import FRAMES, ScreenExperimentName
 from neural_shadows.sections.frame_sets import FrameSetName
 from neural_shadows.sections.networks import ScreenNetworkName
@@ -19,21 +19,19 @@ from neural_shadows.settings.base import Name, check_among, of_another_kind
 class FramesTable(AnyTable):
     """Common base of tables on a frame set."""
 
-    frame_set: FrameSetName = Field(description="a name in `frame_sets`, but `views`")
+    own_chapter = "networks"
 
-    def usual_chapter(self) -> Chapter:
-        return "networks"
+    frame_set: FrameSetName = Field(description="a name in `frame_sets`, but `views`")
 
 
 class NsmTable(AnyTable):
     """Table of untrained screen-space networks (Datta et al. 2022, S3, S4.1)."""
 
+    own_chapter = "networks"
+
     published: str | None = Field(
         None, pattern=r"^nsm\.s[2-5]$", description="`nsm.` and the table's number in the paper"
     )
-
-    def usual_chapter(self) -> Chapter:
-        return "networks"
 
 
 class ProfileTable(NsmTable):

@@ -2,7 +2,7 @@
 
 from math import ceil
 from pathlib import Path
-from typing import ClassVar, Literal
+from typing import Literal
 
 import numpy as np
 from pydantic import Field
@@ -16,7 +16,7 @@ from neural_shadows.reports.drawing.style import (
     new_figure,
     plain_numbers,
 )
-from neural_shadows.sections.any_report import AnyFigure, Chapter
+from neural_shadows.sections.any_report import AnyFigure
 from neural_shadows.sections.frame_sets import FrameSetName
 from neural_shadows.sections.own_frames import OwnFrames
 from neural_shadows.sections.sections import Sections
@@ -30,7 +30,7 @@ FEWEST = 10
 class Settings(AnyFigure):
     """Widths of penumbrae by the model, over measured widths."""
 
-    chapter: ClassVar[Chapter] = "soft"
+    own_chapter = "soft"
 
     kind: Literal["penumbra_model"] = Field(description="`penumbra_model`")
     frame_set: FrameSetName = Field(description="a name in `frame_sets`, but `views`")

@@ -40,8 +40,8 @@ class Settings(TableOfOneScene):
         [], description="further metrics of `metrics/kinds`, as columns"
     )
 
-    def usual_chapter(self) -> Chapter:
-        return "thesis" if self.published else "extensions"
+    def chapter_of(self) -> Chapter:
+        return self.chapter or ("thesis" if self.published else "extensions")
 
 
 def files(layout: Layout, table: str) -> dict[str, Any]:

@@ -57,8 +57,8 @@ class Settings(TableByScene):
     )
     kind: Literal["learning_curves"] = Field(description="`learning_curves`")
 
-    def usual_chapter(self) -> Chapter:
-        return "networks" if self.networks else super().usual_chapter()
+    def chapter_of(self) -> Chapter:
+        return self.chapter or ("networks" if self.networks else self.own_chapter)
 
     def experiments_allowed(self, config: Sections) -> list[str]:
         return [name for name in config.points if name in config.ray_experiments]

@@ -28,7 +28,6 @@ from neural_shadows.reports.data.table import (
     number_cells,
     numbers,
 )
-from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.rows import TableByScene
 from neural_shadows.sections.scenes import MeshName
 from neural_shadows.settings.records import Row, Run, SceneInfo
@@ -42,15 +41,13 @@ SPEEDS = ("rays_per_second", *timing.OWN_MS, *timing.FRAME_MS, "device")
 class Settings(TableByScene):
     """Quality and costs of networks and baselines, by scene [5.4.1]."""
 
+    own_chapter = "extensions"
     null_rows = tuple(NULL)
     timed = True
     kind: Literal["networks"] = Field(description="`networks`")
     against: dict[MeshName, str] = Field(
         {}, description="the row whose paired differences to all others are given, by scene"
     )
-
-    def usual_chapter(self) -> Chapter:
-        return "extensions"
 
 
 def params(layout: Layout, table: str) -> dict[str, Any]:

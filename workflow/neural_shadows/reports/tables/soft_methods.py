@@ -28,7 +28,6 @@ from neural_shadows.reports.data.quality_cells import metric_column
 from neural_shadows.reports.data.soft_costs import cost, describe_bytes, describe_times
 from neural_shadows.reports.data.soft_frames import SoftFrames, describe_trainings, read_trainings
 from neural_shadows.reports.data.table import Table, filled, numbers
-from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.frame_tables import MethodsTable
 from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.base import Name
@@ -50,6 +49,7 @@ FLICKER = (
 class Settings(MethodsTable):
     """Methods for soft shadows on a frame set, by light: errors, flicker, time, bytes."""
 
+    own_chapter = "soft"
     kind: Literal["soft_methods"] = Field(description="`soft_methods`")
     methods: list[Name] = Field(
         min_length=1,
@@ -59,9 +59,6 @@ class Settings(MethodsTable):
     more_metrics: list[metric_in("soft")] = Field(
         [], description="further metrics of `metrics/kinds`, as columns"
     )
-
-    def usual_chapter(self) -> Chapter:
-        return "soft"
 
     def methods_shown(self) -> list[str]:
         return self.methods

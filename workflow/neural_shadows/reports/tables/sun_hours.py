@@ -9,7 +9,7 @@ from pydantic import Field
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.layout.layout import Layout
 from neural_shadows.reports.data.table import Table, numbers
-from neural_shadows.sections.any_report import AnyTable, Chapter
+from neural_shadows.sections.any_report import AnyTable
 from neural_shadows.sections.scenes import MeshName
 
 SUN, SKY = "hours_difference", "sky_difference"
@@ -18,6 +18,7 @@ SUN, SKY = "hours_difference", "sky_difference"
 class Settings(AnyTable):
     """Time and error of sun hours and sky view by a field, beside Embree."""
 
+    own_chapter = "extensions"
     kind: Literal["sun_hours"] = Field(description="`sun_hours`")
     scenes: list[MeshName] = Field(min_length=1, description="meshes in `scenes`")
     resolution: int = Field(512, ge=8, le=1024, multiple_of=4, description="cells of the field")
@@ -30,9 +31,6 @@ class Settings(AnyTable):
     def check(self, config: Any, key: str) -> None:
         if 1440 % self.minutes:
             raise ValueError(f"{key}.minutes: {self.minutes} does not divide a day. Give 10 or 20.")
-
-    def usual_chapter(self) -> Chapter:
-        return "extensions"
 
 
 def files(layout: Layout, table: str) -> dict[str, Any]:
