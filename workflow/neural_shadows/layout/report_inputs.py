@@ -72,6 +72,13 @@ class Report:
         path = self.layout.paths.evaluation
         return [path(ending, self.frame_set, method, ALL) for method in methods]
 
+    def labels(self) -> dict[str, str]:
+        """Labels of the methods for soft shadows."""
+        return {
+            method: frame_methods.label(self.layout, method, self.frame_set)
+            for method in self.methods
+        }
+
     def screen_trainings(self) -> list[str]:
         """training.json files of the screen-space networks."""
         names = [
@@ -88,8 +95,8 @@ def _source(name: str) -> Callable[[Report], str]:
 
 # Of methods on rays and in light maps, by the report's `rows`, `scene` or `experiment`.
 FILES: dict[str, Callable[[Report], Any]] = {
-    "metrics": lambda report: tables.metrics(report.layout, report.rows),
-    "visibilities": lambda report: tables.visibilities(report.layout, report.rows),
+    "metrics": lambda report: tables.evaluations(report.layout, report.rows, "csv"),
+    "visibilities": lambda report: tables.evaluations(report.layout, report.rows, "npz"),
     "references": lambda report: tables.references(report.layout, report.scenes),
     "depth_biases": lambda report: tables.depth_biases(report.layout, report.rows),
     "weights": lambda report: report.network("weights.safetensors"),
@@ -139,8 +146,5 @@ PARAMS: dict[str, Callable[[Report], Any]] = {
     "sampling": lambda report: report.layout.entry("samplings", report.settings["sampling"]),
     "device": lambda report: report.layout.settings["compute"]["device"],
     "precision": lambda report: report.layout.settings["compute"]["precision"],
-    "labels": lambda report: {
-        method: frame_methods.label(report.layout, method, report.frame_set)
-        for method in report.methods
-    },
+    "labels": Report.labels,
 }

@@ -20,17 +20,12 @@ def timed_rows(layout: Layout, table: str, scene: str) -> list[Row]:
     return [row for row in layout.entry("tables", table)["rows"] if row["scene"] == scene]
 
 
-def metrics(layout: Layout, rows: Sequence[Row]) -> list[str]:
-    """Metrics of all batches of the rows' methods, except ray tracing."""
-    return _evaluations(layout, rows, "csv")
+def evaluations(layout: Layout, rows: Sequence[Row], ending: str) -> list[str]:
+    """Evaluation files of all batches of the rows' methods, except ray tracing.
 
-
-def visibilities(layout: Layout, rows: Sequence[Row]) -> list[str]:
-    """Visibilities of all batches of the rows' methods, except ray tracing."""
-    return _evaluations(layout, rows, "npz")
-
-
-def _evaluations(layout: Layout, rows: Sequence[Row], ending: str) -> list[str]:
+    Args:
+        ending: `csv` of metrics, `npz` of visibilities.
+    """
     methods = [(row["scene"], row["method"]) for row in rows if row["method"] != RAY_TRACED]
     parts = batches(layout.views)
     groups = [(f"{scene}.{part}", method) for scene, method in methods for part in parts]
@@ -122,14 +117,6 @@ def frame_set(layout: Layout, table: str) -> str:
     return layout.entry("tables", table)["frame_set"]
 
 
-def evaluations(layout: Layout, table: str, ending: str) -> list[str]:
-    """Evaluation file of each method of a table."""
-    frames = frame_set(layout, table)
-    return [
-        layout.paths.evaluation(ending, frames, method, ALL) for method in methods(layout, table)
-    ]
-
-
 def constants(layout: Layout, table: str) -> list[str]:
     """Files of chosen constants of a table's methods, in order."""
     frames = frame_set(layout, table)
@@ -146,14 +133,6 @@ def widths(layout: Layout, frame_set: str) -> list[str]:
     engine = layout.frames(frame_set).get("engine")
     has_targets = engine is None or engine["targets"]
     return [layout.paths.frame_measure("widths.json", frame_set)] if has_targets else []
-
-
-def labels(layout: Layout, table: str) -> dict[str, str]:
-    """Labels of a table's methods."""
-    frames = frame_set(layout, table)
-    return {
-        method: frame_methods.label(layout, method, frames) for method in methods(layout, table)
-    }
 
 
 def shown_scenes(layout: Layout, table: str) -> list[str]:

@@ -12,7 +12,7 @@ from neural_shadows.evaluation.registry import UNLEARNED, frame_method, is_netwo
 from neural_shadows.frames.feature_names import BASES
 from neural_shadows.layout import tables
 from neural_shadows.layout.layout import Layout
-from neural_shadows.layout.paths import ALL
+from neural_shadows.layout.report_inputs import Report
 from neural_shadows.metrics.intervals import FEWEST_SCENES, FEWEST_VIEWS, scenes_interval
 from neural_shadows.metrics.registry import frame_metrics, metrics
 from neural_shadows.reports.claims import screen_networks
@@ -111,13 +111,13 @@ def _method(config: Sections, network: str, base: str) -> str:
 
 def files(layout: Layout, claim: Claim) -> dict[str, list[str]]:
     """Files of a claim's table, other seeds and null predictors."""
-    table, frame_set = claim["table"], tables.frame_set(layout, claim["table"])
-    methods = [name for others in claim["again"].values() for name in others]
+    table = claim["table"]
+    report = Report(layout, table, layout.entry("tables", table))
+    methods = [*report.methods, *(name for others in claim["again"].values() for name in others)]
     if claim["networks"]:
         methods += [*UNLEARNED, *claim["bases"].values()]
-    beside = [layout.paths.evaluation("csv", frame_set, method, ALL) for method in methods]
     return {
-        "soft_metrics": [*tables.evaluations(layout, table, "csv"), *beside],
+        "soft_metrics": report.evaluated("csv", methods),
         "soft_times": tables.times(layout, table),
         **screen_networks.files(layout, claim),
     }

@@ -5,6 +5,7 @@ from typing import Any
 
 from neural_shadows.layout import tables
 from neural_shadows.layout.layout import Layout
+from neural_shadows.layout.report_inputs import Report
 from neural_shadows.reports.claims.claim_kinds import by_kind, kind_of, methods
 from neural_shadows.settings.kinds import kinds
 
@@ -35,7 +36,7 @@ def arguments(layout: Layout) -> dict[str, Any]:
         "soft_tables": {
             table: {
                 "frame_set": tables.frame_set(layout, table),
-                "labels": tables.labels(layout, table),
+                "labels": Report(layout, table, layout.entry("tables", table)).labels(),
                 "scenes": tables.shown_scenes(layout, table),
                 "radii": tables.radii(layout, table),
             }

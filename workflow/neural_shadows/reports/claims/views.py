@@ -69,7 +69,7 @@ def files(layout: Layout, claim: Claim) -> dict[str, list[str]]:
     """Files of a claim on images, with those without shadow."""
     rows = tables.with_curves(layout, methods(claim))
     null = tables.unshadowed(tables.unique(row["scene"] for row in rows))
-    return row_files(layout, rows) | {"metrics": tables.metrics(layout, [*rows, *null])}
+    return row_files(layout, rows) | {"metrics": tables.evaluations(layout, [*rows, *null], "csv")}
 
 
 def comparisons(claim: Claim, data: Measured) -> list[Comparison]:

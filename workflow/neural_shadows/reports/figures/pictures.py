@@ -66,7 +66,7 @@ def files(layout: Layout, figure: str) -> dict[str, Any]:
     settings = layout.entry("figures", figure)
     # No shadow's decide whether a network has learned.
     rows = [*settings["rows"], *tables.unshadowed([settings["scene"]])]
-    return {"metrics": tables.metrics(layout, rows)}
+    return {"metrics": tables.evaluations(layout, rows, "csv")}
 
 
 def draw(

@@ -73,8 +73,8 @@ def page_files(layout: Layout) -> dict[str, Any]:
         "claims_json": [paths.report("claims.json")] if settings["claims"] else [],
         "viewers": [paths.report(f"{name}.html") for name in settings["viewers"]],
         "references": tables.references(layout, scenes),
-        "visibilities": tables.visibilities(layout, rows),
-        "metrics": tables.metrics(layout, rows),
+        "visibilities": tables.evaluations(layout, rows, "npz"),
+        "metrics": tables.evaluations(layout, rows, "csv"),
         "meshes": [paths.scene("mesh.json", scene) for scene in layout.mesh_scenes],
         "trainings": tables.networks(layout, rows, "training.json"),
         "lpips_json": [paths.lpips],
@@ -171,7 +171,7 @@ def _missing_frames(layout: Layout, scene: str) -> list[str]:
     if not all(Path(path).exists() for path in tables.references(layout, [scene])):
         return []
     methods = [row for row in pictured(layout) if row["scene"] == scene]
-    files = [tables.visibilities(layout, [row]) for row in methods]
+    files = [tables.evaluations(layout, [row], "npz") for row in methods]
     count = sum(not all(Path(path).exists() for path in paths) for paths in files)
     return [f"frames of {count} of {len(methods)} methods on {scene}"] if count else []
 

@@ -16,8 +16,7 @@ from neural_shadows.evaluation.null_predictors import NO_SHADOW
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.tables import curves as curves_of
-from neural_shadows.layout.tables import metrics as metrics_of
-from neural_shadows.layout.tables import networks, unique, unshadowed, with_curves
+from neural_shadows.layout.tables import evaluations, networks, unique, unshadowed, with_curves
 from neural_shadows.metrics.power_law import Curve
 from neural_shadows.metrics.registry import error_of, value_of
 from neural_shadows.metrics.registry import metrics as metrics_by_key
@@ -98,7 +97,7 @@ def files(layout: Layout, table: str) -> dict[str, Any]:
         return none | {"trainings": networks(layout, points, "training.json")}
     rows = [*with_curves(layout, rows), *unshadowed(unique(row["scene"] for row in rows))]
     return {
-        "metrics": metrics_of(layout, rows),
+        "metrics": evaluations(layout, rows, "csv"),
         "losses": networks(layout, rows, "loss.csv"),
         "trainings": networks(layout, rows, "training.json"),
     }
