@@ -52,18 +52,10 @@ class Work:
 # Rays.
 
 
-def draw_directions(layout: Layout, scene: str, sampling: str) -> Work:
-    return Work(LIGHT_START)
-
-
 def sample_rays(layout: Layout, scene: str, sampling: str, shard: str) -> Work:
     settings, ends = layout.entry("samplings", sampling), layout.shard_range(sampling, shard)
     samples = (ends["last"] - ends["first"]) * settings["points_per_direction"]
     return Work(LIGHT_START + 1.3e-6 * samples)
-
-
-def describe_rays(layout: Layout, scene: str, sampling: str) -> Work:
-    return Work(2 * LIGHT_START)
 
 
 # Trainings.
@@ -186,10 +178,6 @@ def render_frames(layout: Layout, scene: str, frame_set: str, part: str) -> Work
     seconds = START + 2.4 * pixels * (1 + settings["twins"])
     # Eight places of a pixel, in penumbrae with `samples`² rays each.
     return Work(seconds, rays=0.33 * targets * settings["samples"] ** 2)
-
-
-def import_frame(layout: Layout, scene: str, frame_set: str, part: str) -> Work:
-    return Work(2 * LIGHT_START)
 
 
 def fit_fields(layout: Layout, frame_set: str) -> Work:
@@ -315,14 +303,14 @@ def profile_screen_network(layout: Layout, network: str) -> Work:
 CONSTANT = {"get_mesh": 5.0, "prepare_mesh": 2.5, "find_lpips": 6.5, "export_network": 6.0}
 CONSTANT |= {"table": 4.0, "figure": 6.0, "preview_scene": 5.0, "viewer": 6.0, "claims": 10.0}
 CONSTANT |= {"page": 20.0, "all": 0.0, "expected_minutes": 15.0, "restore_weights": START}
-CONSTANT |= {"manifest": 6.0}
+CONSTANT |= {"manifest": 6.0, "draw_directions": LIGHT_START, "describe_rays": 2 * LIGHT_START}
+CONSTANT |= {"import_frame": 2 * LIGHT_START}
 
 BY_RULE: dict[str, Callable[..., Work]] = {
     function.__name__: function
     for function in (
-        *(draw_directions, sample_rays, describe_rays, train),
-        *(render_references, query_network),
-        *(render_frames, import_frame, fit_fields, measure_frames, measure_sensitivity),
+        *(sample_rays, train, render_references, query_network),
+        *(render_frames, fit_fields, measure_frames, measure_sensitivity),
         *(measure_sun_hours,),
         *(tune, evaluate, answer_frames, time_methods, profile_screen_network),
     )
