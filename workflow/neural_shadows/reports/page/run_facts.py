@@ -4,13 +4,11 @@ from collections.abc import Mapping, Sequence
 from importlib.metadata import version
 from pathlib import Path
 from platform import python_version
-from typing import Any
-
-import pandas as pd
 
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.reports.data.inputs import by_folder
+from neural_shadows.reports.data.inputs import by_folder, read_seconds
 from neural_shadows.running.origin import CHECKOUT, commit_of
+from neural_shadows.running.provenance import describe_hardware
 from neural_shadows.settings.records import Run, SceneInfo, TrainingRecord
 
 PACKAGES = ("snakemake", "torch", "embreex", "trimesh", "numpy", "lpips")
@@ -31,7 +29,7 @@ def run_facts(
     if records:
         facts["networks"] = _networks(records)
         facts["networks made on"] = "; ".join(
-            dict.fromkeys(_machine(record["machine"]) for record in records)
+            dict.fromkeys(describe_hardware(record["machine"]) for record in records)
         )
         facts["networks made at"] = "; ".join(dict.fromkeys(record["commit"] for record in records))
     if lpips_json:
@@ -75,15 +73,10 @@ def _networks(records: Sequence[TrainingRecord]) -> str:
 
 def _duration(rule: str, jobs: Sequence[Path]) -> str:
     """Total time and number of a rule's jobs, from its benchmarks."""
-    seconds = sum(pd.read_csv(path, sep="\t")["s"].sum() for path in jobs)
+    seconds = read_seconds(jobs)
     time = f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
     time = f"{seconds:.0f} s" if seconds < 120 else time
     return f"{rule.replace('_', ' ')} {time} ({_counted(len(jobs), 'job')})"
-
-
-def _machine(machine: Mapping[str, Any]) -> str:
-    gpu = f", {machine['gpu']}" if machine["gpu"] else ""
-    return f"{machine['cpu']}, {_counted(machine['cores'], 'core')}{gpu}"
 
 
 def _counted(count: int, noun: str) -> str:
