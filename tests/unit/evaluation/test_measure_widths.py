@@ -17,7 +17,7 @@ def test_the_width_of_one_straight_edge(tmp_path):
     point, soft = json.loads(out.read_text())["scenes"]["room"]
     assert point is None
     assert np.allclose(soft, 8 * 4 / np.pi, rtol=0.2)
-    shown = {"soft_metrics": [], "labels": {}, "frames_json": part}
+    shown = {"soft_metrics": [], "screen_trainings": [], "labels": {}, "frames_json": part}
     (note,) = SoftFrames(**shown, widths_json=out).describe_widths()
     assert (
         "of 1 scenes the median (least to most): light of 0.25 m radius 10 (10 to 10) and 10."

@@ -101,7 +101,8 @@ def test_notes_say_constants_and_where_they_end(written):
 def test_a_light_without_extent_has_no_width(tmp_path, unit):
     record = {"radii": [0, 0.25], "radius_unit": unit, "scenes": {"room": [[2, 3], [8, 9]]}}
     widths_json = samples.write_record(tmp_path / "widths.json", record | {"widest": 192})
-    soft = SoftFrames(soft_metrics=[], labels={}, frames_json=widths_json, widths_json=widths_json)
+    files = {"frames_json": widths_json, "widths_json": widths_json}
+    soft = SoftFrames(soft_metrics=[], screen_trainings=[], labels={}, **files)
     (note,) = soft.describe_widths()
     light = {"metres": "light of 0.25 m radius", "degrees": "sun of 0.25° radius"}[unit]
     assert f"(least to most): {light} 8 (8 to 8) and 9. Wider" in note

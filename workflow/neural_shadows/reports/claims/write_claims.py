@@ -13,7 +13,7 @@ from neural_shadows.reports.claims.frames import SoftTable, TableSettings, soft_
 from neural_shadows.reports.claims.gates import judge
 from neural_shadows.reports.claims.measured import TEXT_SAMPLES, Claim, Measured
 from neural_shadows.reports.data import phrases
-from neural_shadows.reports.data.inputs import by_folder, read_meshes
+from neural_shadows.reports.data.inputs import by_folder, read_by_folder
 from neural_shadows.reports.data.learned import margins
 from neural_shadows.reports.data.phrases import TEXTS
 from neural_shadows.reports.data.published import by_cell, read_rows
@@ -70,9 +70,9 @@ def claims(
     data = Measured(
         metrics={scene: _by_view(paths, kinds) for scene, paths in by_folder(metrics).items()},
         losses={name: read_loss(path) for name, [path] in by_folder(losses).items()},
-        trainings={name: read_json(path) for name, [path] in by_folder(trainings).items()},
+        trainings=read_by_folder(trainings),
         times={(path.parent.name, path.stem): read_json(path) for path in times},
-        meshes=read_meshes(meshes),
+        meshes=read_by_folder(meshes),
         scenes=scenes,
         published=published,
         margins=margins(by_cell(published)),
@@ -80,7 +80,7 @@ def claims(
         seed=run["seed"],
         soft=_soft(soft_metrics, soft_times, soft_tables),
         tables={path.stem: pd.read_csv(path) for path in tables},
-        screen_trainings={path.parent.name: read_json(path) for path in screen_trainings},
+        screen_trainings=read_by_folder(screen_trainings),
     )
     rows = pd.DataFrame(
         {"claim": name} | {key: claim[key] for key in OF_SETTINGS} | judge(claim, data)
@@ -116,7 +116,7 @@ def _soft(
     metrics: Sequence[Path], times: Sequence[Path], tables: Mapping[str, TableSettings]
 ) -> dict[str, SoftTable]:
     """Measured values of soft shadows by table."""
-    timed = {path.parent.name: read_json(path) for path in times}
+    timed = read_by_folder(times)
     soft = {}
     for table, about in tables.items():
         of_frames = [path for path in metrics if path.parents[1].name == about["frame_set"]]

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -9,7 +10,7 @@ import pandas as pd
 from neural_shadows.evaluation.memory import stored_bytes
 from neural_shadows.evaluation.registry import unbiased
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.settings.records import DepthBias, MeshReport, Row, TunedRadius
+from neural_shadows.settings.records import DepthBias, Row, TunedRadius
 
 
 def by_folder(paths: Iterable[Path]) -> dict[str, list[Path]]:
@@ -20,8 +21,8 @@ def by_folder(paths: Iterable[Path]) -> dict[str, list[Path]]:
     return folders
 
 
-def read_meshes(paths: Iterable[Path]) -> dict[str, MeshReport]:
-    """Read mesh.json by scene."""
+def read_by_folder(paths: Iterable[Path]) -> dict[str, Any]:
+    """Read JSON files, one a folder, by the folder's name."""
     return {path.parent.name: read_json(path) for path in paths}
 
 

@@ -11,6 +11,7 @@ import pandas as pd
 from neural_shadows.evaluation.metric_files import read_metrics
 from neural_shadows.evaluation.registry import LABELS, UNLEARNED
 from neural_shadows.files.whole_files import read_json
+from neural_shadows.reports.data.inputs import read_by_folder
 from neural_shadows.reports.data.lights import light_names, radii_of, unit_of
 from neural_shadows.settings.records import PartRecord, TrainingRecord
 
@@ -26,11 +27,13 @@ class SoftFrames:
 
     Args:
         soft_metrics: of each method. labels: by method, in the table's order.
+        screen_trainings: training.json of the networks.
         frames_json: a part of the frames. widths_json: of `measure_frames`, for a note; None for
             frames without targets.
     """
 
     soft_metrics: list[Path]
+    screen_trainings: list[Path]
     labels: Mapping[str, str]
     frames_json: Path
     widths_json: Path | None = None
@@ -39,6 +42,11 @@ class SoftFrames:
     def errors(self) -> pd.DataFrame:
         """Rows of `read_metrics`."""
         return read_metrics(self.soft_metrics)
+
+    @cached_property
+    def records(self) -> dict[str, TrainingRecord]:
+        """Trainings by experiment."""
+        return read_by_folder(self.screen_trainings)
 
     @cached_property
     def about(self) -> PartRecord:
@@ -94,22 +102,15 @@ class TrainedFrames(SoftFrames):
 
     Args:
         null_metrics: of the null predictors.
-        screen_trainings: training.json of the networks.
     """
 
     null_metrics: list[Path]
-    screen_trainings: list[Path]
 
     @cached_property
     def errors(self) -> pd.DataFrame:
         """Rows of `read_metrics`; empty without any file."""
         paths = [*self.soft_metrics, *self.null_metrics]
         return read_metrics(paths) if paths else pd.DataFrame({"method": []})
-
-    @cached_property
-    def records(self) -> dict[str, TrainingRecord]:
-        """Trainings by experiment."""
-        return read_trainings(self.screen_trainings)
 
     @property
     def nulls(self) -> dict[str, str]:
@@ -138,11 +139,6 @@ class TrainedFrames(SoftFrames):
 def learned_rows(table: pd.DataFrame) -> pd.DataFrame:
     """The table without null predictors."""
     return table[table["null"].isna()] if "null" in table else table
-
-
-def read_trainings(paths: Sequence[Path]) -> dict[str, TrainingRecord]:
-    """Read training.json by experiment."""
-    return {path.parent.name: read_json(path) for path in paths}
 
 
 def describe_trainings(

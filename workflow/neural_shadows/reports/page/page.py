@@ -13,7 +13,7 @@ from PIL import Image
 
 from neural_shadows.evaluation.registry import LABELS, NETWORK_LOOK, look_of
 from neural_shadows.files.whole_files import write_text
-from neural_shadows.reports.data.inputs import read_meshes
+from neural_shadows.reports.data.inputs import read_by_folder
 from neural_shadows.reports.data.method_look import look_of_kind
 from neural_shadows.reports.data.phrases import describe_mesh
 from neural_shadows.reports.page.blocks import lossy_uri
@@ -89,7 +89,7 @@ def write_page(
     Raises:
         InputError: a file is missing or not whole.
     """
-    described = {s: describe_mesh(mesh, scenes[s]) for s, mesh in read_meshes(meshes).items()}
+    described = {s: describe_mesh(mesh, scenes[s]) for s, mesh in read_by_folder(meshes).items()}
     scenes = {scene: scenes[scene] for scene in described}
     looks = {label: look_of_kind(kind) for label, kind in kinds.items()}
     claims = table_block(claims_json, looks) if claims_json else None

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from neural_shadows.files.whole_files import sha256_of, write_json
-from neural_shadows.reports.data.inputs import by_folder, read_meshes, read_seconds
+from neural_shadows.reports.data.inputs import by_folder, read_by_folder, read_seconds
 from neural_shadows.reports.runs.crate import write_crate
 from neural_shadows.running.module_graph import PACKAGE, digest
 from neural_shadows.running.origin import CHECKOUT, describe_origin
@@ -64,7 +64,7 @@ def write_manifest(
         "machine": origin["machine"],
         "meshes": {
             scene: {key: mesh[key] for key in ("name", "faces", "sha256")}
-            for scene, mesh in read_meshes(meshes).items()
+            for scene, mesh in read_by_folder(meshes).items()
         },
         "jobs": jobs_of(sorted(logs.glob("*/*.log"))),
         "time": time_of(benchmarks.glob("*/*.tsv")),

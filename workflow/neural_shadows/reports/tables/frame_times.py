@@ -9,7 +9,7 @@ from pydantic import Field
 from neural_shadows.evaluation.null_predictors import NO_SHADOW
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports.data import phrases, quality_cells, timing
-from neural_shadows.reports.data.inputs import read_meshes
+from neural_shadows.reports.data.inputs import read_by_folder
 from neural_shadows.reports.data.learned import margins
 from neural_shadows.reports.data.published import add_printed, read_published
 from neural_shadows.reports.data.quality import scenes_quality
@@ -58,7 +58,7 @@ def table(
     times_ms = [*timing.FRAME_MS, *timing.OWN_MS]
     first = ["method", "scene", *times_ms, "repeats", "device", *with_ends("lpips"), "learned"]
     table = table[[*first, "size_kib", "resident_kib"]]
-    described, lpips = read_meshes(meshes), read_json(lpips_json)
+    described, lpips = read_by_folder(meshes), read_json(lpips_json)
     table = add_printed(table, rows, PRINTED, published, published_csv, described)
     network = lpips["net"] if lpips["available"] else None
     table = table.assign(lpips_net=network)

@@ -31,7 +31,7 @@ from neural_shadows.reports.data.curve_lines import (
 )
 from neural_shadows.reports.data.digits import short
 from neural_shadows.reports.data.frame_curves import FURTHER, frames_table
-from neural_shadows.reports.data.inputs import by_folder, read_meshes
+from neural_shadows.reports.data.inputs import by_folder, read_by_folder
 from neural_shadows.reports.data.published import read_published
 from neural_shadows.reports.data.quality import values_by_view
 from neural_shadows.reports.data.table import Column, Table, number_cells
@@ -131,7 +131,7 @@ def table(
         losses, trainings: of these points; of networks on frames `trainings` alone.
         curves: `experiment`, `seed` and `samples` of each point, by the rows' experiments.
     """
-    records = {name: read_json(path) for name, [path] in by_folder(trainings).items()}
+    records = read_by_folder(trainings)
     if not metrics:
         return _of_frames(frames_table(rows, curves, records, run["seed"]))
     lpips = read_json(lpips_json)
@@ -142,7 +142,7 @@ def table(
         },
         losses={name: read_loss(path) for name, [path] in by_folder(losses).items()},
         trainings=records,
-        meshes=read_meshes(meshes),
+        meshes=read_by_folder(meshes),
         curves=curves,
         seed=run["seed"],
     )

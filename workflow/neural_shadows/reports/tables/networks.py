@@ -18,7 +18,7 @@ from neural_shadows.layout.tables import before_training, experiments_of
 from neural_shadows.metrics.registry import metrics as metrics_by_key
 from neural_shadows.reports.data import phrases, quality, quality_cells, timing
 from neural_shadows.reports.data.digits import short
-from neural_shadows.reports.data.inputs import by_folder, read_biases, read_meshes, read_seconds
+from neural_shadows.reports.data.inputs import by_folder, read_biases, read_by_folder, read_seconds
 from neural_shadows.reports.data.learned import margins
 from neural_shadows.reports.data.published import TABLE_OF_SCENE, printed_networks, read_published
 from neural_shadows.reports.data.table import (
@@ -85,7 +85,7 @@ def table(
     timed = {record["scene"]: record for record in map(read_json, times)}
     records = {record["name"]: record for record in map(read_json, trainings)}
     biases = read_biases(rows, depth_biases)
-    reports, lpips = read_meshes(meshes), read_json(lpips_json)
+    reports, lpips = read_by_folder(meshes), read_json(lpips_json)
     printed = read_published(published_csv)
 
     context = {

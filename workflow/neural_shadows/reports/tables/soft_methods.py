@@ -26,7 +26,7 @@ from neural_shadows.reports.data.frame_means import (
 from neural_shadows.reports.data.lights import light_name
 from neural_shadows.reports.data.quality_cells import metric_column
 from neural_shadows.reports.data.soft_costs import cost, describe_bytes, describe_times
-from neural_shadows.reports.data.soft_frames import SoftFrames, describe_trainings, read_trainings
+from neural_shadows.reports.data.soft_frames import SoftFrames, describe_trainings
 from neural_shadows.reports.data.table import Table, filled, numbers
 from neural_shadows.sections.frame_tables import MethodsTable
 from neural_shadows.sections.sections import Sections
@@ -78,7 +78,6 @@ def params(layout: Layout, table: str) -> dict[str, Any]:
 
 def table(
     soft: SoftFrames,
-    screen_trainings: list[Path],
     soft_times: Path | None,
     soft_constants: list[Path],
     lpips_json: Path,
@@ -91,7 +90,6 @@ def table(
     CSV: all columns of `soft_table`, and the scale.
 
     Args:
-        screen_trainings: training.json of the networks.
         soft_times: of `time_methods`, None for frames without a scene.
         soft_constants: of `tune`.
         left_out: labels of methods not available on this machine.
@@ -142,7 +140,7 @@ def table(
         *_describe_constants(chosen, labels),
         *describe_times(times),
         *describe_bytes(times),
-        *describe_trainings(read_trainings(screen_trainings), labels),
+        *describe_trainings(soft.records, labels),
         *_describe_flicker(table, errors, radii, unit),
         *([f"Not available on this machine: {', '.join(left_out)}."] if left_out else []),
         phrases.describe_lpips(lpips),

@@ -30,7 +30,7 @@ from neural_shadows.reports.data.lights import light_name
 from neural_shadows.reports.data.published import printed_value, read_published, with_printed
 from neural_shadows.reports.data.quality_cells import metric_column
 from neural_shadows.reports.data.soft_costs import cost, describe_times
-from neural_shadows.reports.data.soft_frames import SoftFrames, describe_trainings, read_trainings
+from neural_shadows.reports.data.soft_frames import SoftFrames, describe_trainings
 from neural_shadows.reports.data.table import Column, Table, filled, numbers
 from neural_shadows.sections.frame_tables import MethodsTable
 from neural_shadows.sections.sections import Sections
@@ -112,7 +112,6 @@ def params(layout: Layout, table: str) -> dict[str, Any]:
 
 def table(
     soft: SoftFrames,
-    screen_trainings: list[Path],
     soft_times: Path | None,
     published_kpnsm_csv: Path,
     published: str | None,
@@ -126,7 +125,6 @@ def table(
     CSV: those of `summary_table`, printed numbers and differences, the radii's unit, and the scale.
 
     Args:
-        screen_trainings: training.json of the networks.
         soft_times: of `time_methods`; None where `metrics` has no time.
         published: `kpnsm.` and the paper's number of the table; None without printed numbers.
         by: `scene`, `radius`, or None; metrics: of `Settings`.
@@ -153,9 +151,7 @@ def table(
         *([_describe_sequences(soft.errors)] if "temporal_error" in metrics else []),
         *([_describe_printed(metrics)] if published else []),
         *describe_times(times),
-        *describe_trainings(
-            read_trainings(screen_trainings), {row["method"]: row["label"] for row in methods}
-        ),
+        *describe_trainings(soft.records, {row["method"]: row["label"] for row in methods}),
     ]
     return Table(table, _cells(table, by, metrics, soft.unit), notes, text_columns=1 + bool(by))
 
