@@ -231,15 +231,17 @@ def test_lights_that_a_network_did_not_learn_have_no_training_error(made):
 def test_a_line_over_the_solids_before_the_light(made):
     """Errors of 0.01 a solid, of frames half of whose pixels behind something have two before them.
 
-    A point light, of which they are the ninefold, has no part.
+    A point light, of which they are the ninefold, has no part. A sequence's frames are no test frames.
     """
     values = {"mse_solids_1": 0.01, "mse_solids_2": 0.02, "mse_behind": 0.015, "solids_behind": 1.5}
-    values |= {"mse_per_solid": 0.01, "mse_solids_3": float("nan")}
+    values |= {"mse": 0.01, "mse_per_solid": 0.01, "mse_solids_3": float("nan")}
     rows = [row for name, value in values.items() for row in frames(value, name, (9, 1))]
+    rows += frames(0.1, "e", part="light_000")
     table, text = made(screen_solids, {"five": rows}, labels={"five": "Five"})
     assert table["mse"].tolist()[:2] == [0.01, 0.02] and np.isnan(table["mse"][2])
     assert table["line"].tolist() == pytest.approx([0.01, 0.02, 0.03])
     assert table["slope_low"].tolist() == pytest.approx([0.01] * 3)
+    assert "[95 % over 4 frames of one scene" in text
     assert "3 and more" in text and "100.0 [100.0, 100.0]" in text
 
 

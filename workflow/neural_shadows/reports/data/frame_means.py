@@ -71,6 +71,12 @@ def describe_units(scenes: Sequence[str], frames: int) -> str:
     return f"95 % over {frames} frames in {count} scenes, {', '.join(scenes)}; not valid for others"
 
 
+def describe_sample(errors: pd.DataFrame) -> str:
+    """`describe_units` of test frames; `errors`: rows of `read_metrics`."""
+    frames = by_frame(errors, "mse")
+    return describe_units([*frames.index.unique("scene")], len(frames))
+
+
 def with_shown_errors(table: pd.DataFrame) -> tuple[pd.DataFrame, str]:
     """Add errors off edges if measured, else of all pixels.
 

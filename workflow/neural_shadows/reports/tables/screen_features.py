@@ -9,7 +9,7 @@ from pydantic import Field
 
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.frames.feature_names import FEATURES
-from neural_shadows.reports.data.frame_means import by_frame, describe_units, squared_errors
+from neural_shadows.reports.data.frame_means import describe_sample, squared_errors
 from neural_shadows.reports.data.published import printed_column, read_published, with_printed
 from neural_shadows.reports.data.soft_frames import TrainedFrames, learned_rows
 from neural_shadows.reports.data.table import (
@@ -58,8 +58,7 @@ def table(
     )
     printed = printed_column(printed_numbers, published, whole["row"], "error")
     whole = with_printed(whole, "error", printed)
-    table, errors = learned_rows(whole), soft.errors
-    frames = by_frame(errors[errors["method"].isin(columns.values())], "mse")
+    table = learned_rows(whole)
     sensitivity = [
         ", ".join(f"{name} {100 * part['share']:.1f}" for name, part in _sorted(shares[experiment]))
         for experiment in table["experiment"]
@@ -75,7 +74,7 @@ def table(
     }
     notes = [
         "Mean over test frames and all lights, a point among them "
-        f"[{describe_units([*frames.index.unique('scene')], len(frames))}]; the paper does not name its "
+        f"[{describe_sample(soft.errors)}]; the paper does not name its "
         "error; its numbers fit a squared one.",
         "Sensitivity: mean absolute change of the output with noise of a tenth of a feature's standard "
         "deviation, as a share of all features'. The paper drops features with less than "

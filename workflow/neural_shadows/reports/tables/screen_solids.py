@@ -7,7 +7,7 @@ from pydantic import Field
 
 from neural_shadows.metrics.kinds.errors_by_occluders import MOST
 from neural_shadows.metrics.registry import metrics
-from neural_shadows.reports.data.frame_means import describe_units, mean_with_interval
+from neural_shadows.reports.data.frame_means import describe_sample, mean_with_interval
 from neural_shadows.reports.data.quality_cells import metric_column
 from neural_shadows.reports.data.soft_frames import TrainedFrames, learned_rows
 from neural_shadows.reports.data.table import Table
@@ -40,19 +40,13 @@ def table(soft: TrainedFrames) -> Table:
     notes = [
         "Of pixels of test frames with so many solids between them and the light's centre, mean over "
         "all lights but a point light, which one solid hides as much as several "
-        f"[{describe_units(*_frames(errors))}]. A solid: two surfaces on the ray to the light, "
+        f"[{describe_sample(errors)}]. A solid: two surfaces on the ray to the light, "
         "or one of a sheet.",
         "Each solid adds: the slope of a line fitted to the squared errors of a frame's pixels over "
         "their numbers of solids, mean over frames. The line: with this slope through their means.",
         *soft.notes(),
     ]
     return Table(whole, columns, notes, text_columns=2)
-
-
-def _frames(errors: pd.DataFrame) -> tuple[list[str], int]:
-    """The scenes of test frames, and the number of frames."""
-    frames = errors[["scene", "part", "frame"]].drop_duplicates()
-    return [*frames["scene"].unique()], len(frames)
 
 
 def solids_table(errors: pd.DataFrame, soft: TrainedFrames) -> pd.DataFrame:

@@ -17,7 +17,7 @@ from neural_shadows.layout import frame_methods, tables
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.paths import ALL
 from neural_shadows.layout.tables import unique
-from neural_shadows.reports.data.frame_means import by_frame, describe_units, squared_errors
+from neural_shadows.reports.data.frame_means import describe_sample, squared_errors
 from neural_shadows.reports.data.phrases import TEXTS
 from neural_shadows.reports.data.published import printed_column, read_published, with_printed
 from neural_shadows.reports.data.screen_profiles import (
@@ -193,10 +193,9 @@ def _errors(soft: TrainedFrames, method: str | None) -> dict[str, float]:
 def _describe_errors(soft: TrainedFrames) -> list[str]:
     if not soft.soft_metrics:
         return []
-    frames = by_frame(soft.errors, "mse")
-    units = describe_units([*frames.index.unique("scene")], len(frames))
     return [
-        f"Errors: mean over test frames and all lights, in the step's number format [{units}].",
+        "Errors: mean over test frames and all lights, in the step's number format "
+        f"[{describe_sample(soft.errors)}].",
         ABOUT_NULLS,
     ]
 
