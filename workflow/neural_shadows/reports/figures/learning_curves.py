@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 from pydantic import Field
 
-from neural_shadows.evaluation.look import COLOURS
+from neural_shadows.evaluation.look import COLOURS, GREY
 from neural_shadows.metrics import power_law
 from neural_shadows.metrics.power_law import Curve
 from neural_shadows.metrics.registry import error_of, metrics, value_of
@@ -34,7 +34,6 @@ if TYPE_CHECKING:
 Look = tuple[str, str]
 """Colour and marker of a method."""
 
-GREY = "#777777"
 MARKERS = ("o", "^", "v", "P", "X")
 DECIBELS = "dB"  # already a logarithm: its axis is linear
 NUMBERS = ("samples", "mean", *PREDICTED, "no_shadow", "thesis")

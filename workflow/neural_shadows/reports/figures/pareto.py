@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from pydantic import Field
 
-from neural_shadows.evaluation.look import Look
+from neural_shadows.evaluation.look import GREY, Look
 from neural_shadows.evaluation.null_predictors import NO_SHADOW
 from neural_shadows.evaluation.registry import RAY_TRACED
 from neural_shadows.metrics.registry import metrics as metrics_by_key
@@ -34,7 +34,6 @@ PRINTED = "printed"  # the key of the thesis's own values
 LINES = {NO_SHADOW: ":", PRINTED: "--"}  # methods with a quality and no cost
 NOT_SHOWN = "all_dark"
 PRINTED_NOTES = {True: " (of another LPIPS network)", False: " (mean, not pooled)"}
-GREY = "#777777"
 HALF = {"fillstyle": "bottom", "markerfacecoloralt": "white"}
 CODED = {"color": "#555555", "marker": "o", "linestyle": ""} | HALF
 FRONT = {"color": "#bbbbbb", "linewidth": 1}
@@ -49,8 +48,8 @@ class Settings(RowsFigure):
 
     kind: Literal["pareto"] = Field(description="`pareto`")
     scene: Name = Field(description="a scene of that table")
-    costs: list[Literal["stored_bytes", "resident_bytes", "own_ms", "build_seconds"]] = Field(
-        ["stored_bytes", "resident_bytes", "own_ms", "build_seconds"],
+    costs: list[Literal[tuple(COSTS)]] = Field(
+        [*COSTS],
         min_length=1,
         description="costs on the horizontal axes; the first figure of `stored_bytes` alone opens "
         "the page",

@@ -17,7 +17,6 @@ from neural_shadows.sections.frame_sets import measured_scenes
 from neural_shadows.sections.sections import Sections
 from neural_shadows.sections.table_figures import RadiiFigure
 from neural_shadows.settings.base import check_among, name_in
-from neural_shadows.settings.records import Run
 
 
 class Settings(RadiiFigure):
@@ -93,10 +92,9 @@ def _of_this_kind(layout: Layout, figures: Iterable[str]) -> list[str]:
 def draw(
     part: Path,
     soft_answers: list[Path],
-    title: str,
+    heading: str,
     labels: Mapping[str, str],
     radii: Sequence[int],
-    run: Run,
 ) -> Figure:
     """Draw a part's first frame by each method and radius.
 
@@ -109,4 +107,4 @@ def draw(
 
     paths = {path.stem: path for path in soft_answers}
     pictures = read_pictures(part, {method: paths[method] for method in labels}, radii)
-    return crop_sheet(pictures, labels, f"{title} ({run['scale']} scale)", part.parent.name)
+    return crop_sheet(pictures, labels, heading, part.parent.name)

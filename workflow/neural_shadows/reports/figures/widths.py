@@ -7,7 +7,7 @@ from typing import Any, Literal
 import pandas as pd
 from pydantic import Field
 
-from neural_shadows.evaluation.look import COLOURS
+from neural_shadows.evaluation.look import COLOURS, GREY
 from neural_shadows.reports.data.digits import short
 from neural_shadows.reports.data.table import read_table, with_ends
 from neural_shadows.reports.data.timing import FRAME_MS, OWN_MS
@@ -20,7 +20,7 @@ from neural_shadows.sections.table_figures import TableFigure
 from neural_shadows.settings.records import Row
 
 THEIRS = ("thesis_lpips", "thesis_frame_ms")
-GREY, MARKERS = "#777777", "os^v"
+MARKERS = "os^v"
 
 
 class Settings(TableFigure):
