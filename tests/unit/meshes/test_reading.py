@@ -16,7 +16,6 @@ from mesh_files import (
 )
 
 from neural_shadows.errors import InputError
-from neural_shadows.meshes.ascii_ply import parse_ascii_ply
 from neural_shadows.meshes.binary_ply import parse_binary_ply
 from neural_shadows.meshes.reading import read_mesh
 
@@ -35,29 +34,6 @@ def test_reads_each_format(tmp_path, file):
         assert vertices.dtype == np.float64 and faces.dtype == np.int64
         # the same triangles, corner by corner (STL has no shared vertices)
         np.testing.assert_array_equal(vertices[faces], TETRAHEDRON[TETRAHEDRON_FACES])
-
-
-@pytest.mark.parametrize("kind", ["float", "double"])
-def test_text_ply_is_read_at_once_as_trimesh_reads_it(tmp_path, kind):
-    """Which still takes what has more columns, larger polygons or a damaged number."""
-    shape = trimesh.creation.icosphere(2)
-    text = ascii_ply(shape.vertices, shape.faces).replace(b"double", kind.encode())
-    vertices, faces = parse_ascii_ply(text)
-    expected = trimesh.load(io.BytesIO(text), file_type="ply", process=False)
-    np.testing.assert_array_equal(vertices, expected.vertices)
-    np.testing.assert_array_equal(faces, expected.faces)
-    assert vertices.dtype == np.float64 and faces.dtype == np.int64
-    name = f"property {kind} z\n".encode()
-    for other in (
-        text.replace(name, name + f"property {kind} quality\n".encode()),
-        text.replace(name, b""),
-        text[:-20],
-        text + b"1 2 3\n",
-        text.replace(b"\n3 ", b"\n4 ", 1),
-        text.replace(b"\n3 ", b"\n3 one ", 1),
-        text.replace(b"format ascii", b"format binary_little_endian"),
-    ):
-        assert other != text and parse_ascii_ply(other) is None
 
 
 def test_a_prepared_mesh_is_read_as_by_trimesh():

@@ -10,7 +10,6 @@ from pathlib import Path
 import numpy as np
 
 from neural_shadows.errors import InputError
-from neural_shadows.meshes.ascii_ply import parse_ascii_ply
 from neural_shadows.meshes.binary_ply import parse_binary_ply
 from neural_shadows.meshes.formats import format_of
 from neural_shadows.meshes.obj_file import parse_obj
@@ -76,7 +75,7 @@ def mesh_bytes(path: str | Path) -> bytes:
 def _parse(data: bytes, kind: str) -> tuple[np.ndarray, np.ndarray]:
     if kind == "obj":
         return parse_obj(data)
-    if kind == "ply" and (mesh := parse_binary_ply(data) or parse_ascii_ply(data)):
+    if kind == "ply" and (mesh := parse_binary_ply(data)):
         return mesh
     return _parse_with_trimesh(data, kind)
 
