@@ -213,7 +213,7 @@ def _detail_rows(mesh: PreparedMesh, most: int | None, rounds: int) -> list[Row]
 def _scene_of(vertices: np.ndarray, faces: np.ndarray) -> Scene:
     """A scene that is not shaded."""
     mesh = PreparedMesh(vertices, faces, np.zeros_like(vertices), _normals(vertices, faces))
-    up = axis_vector(SCENE["up"], "up")
+    up = axis_vector(SCENE["up"])
     return make_scene(mesh, up=up, ground=SCENE["ground"], light=SCENE["light"])
 
 

@@ -112,8 +112,6 @@ def test_a_motion_moves_only_the_mover(name):
 
 def test_scenes_by_name():
     assert all(generator_module(name).is_file() for name in NAMES)
-    with pytest.raises(InputError, match="'cellar' is not a generator. Use one of atrium"):
-        arrange("cellar", 0)
 
 
 @pytest.mark.parametrize("height", [0.0, 1.4])

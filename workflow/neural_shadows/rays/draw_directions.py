@@ -26,13 +26,10 @@ def draw_directions(
         sampling: `directions` D and `sampler`: `poisson_quadtree` gives a Poisson-disk pattern,
             the others independent uniform directions.
         light: the domain to draw from, d = −l [4.1.1], on the axis `up`; None for the sphere.
-
-    Raises:
-        InputError: a wrong light domain.
     """
     poisson, count = sampling["sampler"] == "poisson_quadtree", sampling["directions"]
     key = (seed, DIRECTIONS)
-    rng, axis = np.random.default_rng(key), axis_vector(up, "up")
+    rng, axis = np.random.default_rng(key), axis_vector(up)
     if light is not None and poisson:
         directions = -_poisson_lights(count, light, axis, key)
     elif light is not None:

@@ -88,10 +88,10 @@ def open_scene(mesh_ply: Path, *, up: str, ground: bool, light: LightSettings) -
         ground, light: see `make_scene`.
 
     Raises:
-        InputError: the file cannot be read as a prepared mesh, or the axis is unknown.
+        InputError: the file cannot be read as a prepared mesh.
     """
     # Importing trimesh takes 0.4 s, needless in jobs that only read references.
     from neural_shadows.meshes.prepared_mesh import read_prepared
 
     mesh = read_prepared(mesh_ply)
-    return make_scene(mesh, up=axis_vector(up, "up"), ground=ground, light=light)
+    return make_scene(mesh, up=axis_vector(up), ground=ground, light=light)
