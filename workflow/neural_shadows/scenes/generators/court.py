@@ -7,12 +7,12 @@ from collections.abc import Callable
 
 import numpy as np
 
-from neural_shadows.scenes.arrangement import Arrangement, Placed, Region, Spot
+from neural_shadows.scenes.arrangement import Arrangement, Placed, Region
 from neural_shadows.scenes.pieces import outdoors
 from neural_shadows.scenes.pieces.building import arcade, balustrade, column, flight, floor
 from neural_shadows.scenes.pieces.fittings import crates, stool
 from neural_shadows.scenes.pieces.furniture import bench, grille, plant, table, vase
-from neural_shadows.scenes.pieces.plan import Drawn, Kind, Plan, furnish
+from neural_shadows.scenes.pieces.plan import Drawn, Kind, Plan, free_spot, furnish
 from neural_shadows.scenes.pieces.roofs import Site, draw_roofs
 from neural_shadows.scenes.pieces.shapes import Shape, at, balls, box, boxes, joined, placed
 
@@ -33,7 +33,8 @@ def arrange(rng: np.random.Generator) -> Arrangement:
     seat = plan.place(rng, 1.7, 0.7, *_about(middle, 1.0))
     seat = middle if seat is None else seat
     objects.append(placed("bench", at(bench(1.5), seat, rng.uniform(-0.2, 0.2))))
-    spots = tuple(_spot(rng, plan, middle, side) for side in (1.0, 0.8))
+    sides, about = np.array([1, 0.75, 0.5]), _about(middle, 2.0)
+    spots = tuple(free_spot(rng, plan, side * sides, *about) for side in (1.0, 0.8))
     roofs, top = draw_roofs(rng, Site(plan, middle, cameras.low[2] - 0.95))
     objects += roofs
     kinds = [KINDS[k] for k in rng.choice(len(KINDS), 5, replace=False)]
@@ -129,15 +130,6 @@ EDGES: tuple[Callable[[np.random.Generator, float], Shape], ...] = (
 )
 
 
-def _spot(rng: np.random.Generator, plan: Plan, middle: np.ndarray, side: float) -> Spot:
-    """A free spot near the middle, as high as wide."""
-    for own in (side, 0.75 * side, 0.5 * side):
-        position = plan.place(rng, own, own, *_about(middle, 2.0))
-        if position is not None:
-            break
-    return Spot(position, own, rng.uniform(0, 2 * np.pi))
-
-
 def _ground(rng: np.random.Generator, plan: Plan, width: float, depth: float) -> list[Placed]:
     """Paving, grass, or stones, clear of the spots."""
     choice = rng.random()
@@ -165,11 +157,6 @@ def _stall(rng: np.random.Generator) -> Drawn:
     return outdoors.stall(rng, width, rng.uniform(1.6, 1.85)), width + 0.4, 1.5
 
 
-def _lantern(rng: np.random.Generator) -> Drawn:
-    arm = rng.uniform(0.2, 0.32)
-    return outdoors.lantern(rng.uniform(1.4, 1.8), arm), 2 * arm + 0.3, 0.4
-
-
 def _plant(rng: np.random.Generator) -> Drawn:
     return plant(rng, rng.uniform(0.8, 1.6), 120), 0.75, 0.75
 
@@ -188,10 +175,6 @@ def _table(rng: np.random.Generator) -> Drawn:
     width = rng.uniform(1.0, 1.5)
     seats = [at(stool(0.48), (x, 0, z)) for x in (-0.3, 0.3) for z in (-0.62, 0.62)]
     return joined(table(width, 0.7, 0.74), *seats), width + 0.15, 1.7
-
-
-def _crates(rng: np.random.Generator) -> Drawn:
-    return crates(rng, rng.integers(2, 6)), 0.75, 0.6
 
 
 def _fountain(rng: np.random.Generator) -> Drawn:
@@ -219,5 +202,5 @@ def _gate(rng: np.random.Generator) -> Drawn:
 
 
 KINDS: tuple[Kind, ...] = (
-    *(_stall, _lantern, _plant, _urn, _table, _crates, _fountain, _trellis, _steps, _gate),
+    *(_stall, outdoors.lantern, _plant, _urn, _table, crates, _fountain, _trellis, _steps, _gate),
 )

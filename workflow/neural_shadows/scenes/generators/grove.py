@@ -5,12 +5,12 @@ The seed determines size, objects, lights and cameras.
 
 import numpy as np
 
-from neural_shadows.scenes.arrangement import Arrangement, Placed, Region, Spot
+from neural_shadows.scenes.arrangement import Arrangement, Placed, Region
 from neural_shadows.scenes.pieces import outdoors
 from neural_shadows.scenes.pieces.building import floor
 from neural_shadows.scenes.pieces.furniture import bench, grille, plant
 from neural_shadows.scenes.pieces.hanging import wires
-from neural_shadows.scenes.pieces.plan import Drawn, Kind, Plan, furnish
+from neural_shadows.scenes.pieces.plan import Drawn, Kind, Plan, free_spot, furnish
 from neural_shadows.scenes.pieces.shapes import Shape, at, bars, joined, placed
 
 BESIDE = 0.85  # least distance of lights to objects, metres: room for a light of 0.5 m
@@ -32,7 +32,8 @@ def arrange(rng: np.random.Generator) -> Arrangement:
     before = np.array([x + rng.uniform(-0.8, 0.8), 0, near - rng.uniform(0.75, 1.0)])
     objects.append(placed("screen", at(screen(rng, wide), before, rng.uniform(-0.3, 0.3))))
     plan.take(before[[0, 2]] - [wide / 2 + 0.3, 0.4], before[[0, 2]] + [wide / 2 + 0.3, 0.4])
-    spots = tuple(_spot(rng, plan, middle, side) for side in (1.0, 0.8))
+    sides, about = np.array([1, 0.75, 0.5]), (middle[[0, 2]] - 2.0, middle[[0, 2]] + 2.0)
+    spots = tuple(free_spot(rng, plan, side * sides, *about) for side in (1.0, 0.8))
     trees, top = _trees(rng, plan, middle)
     objects += trees
     kinds = [_KINDS[k] for k in rng.choice(len(_KINDS), 4, replace=False)]
@@ -51,15 +52,6 @@ def arrange(rng: np.random.Generator) -> Arrangement:
         targets=Region(middle + [-1.6, 0.0, -1.4], middle + [1.6, 0.9, 0.8]),
         mover="bench",
     )
-
-
-def _spot(rng: np.random.Generator, plan: Plan, middle: np.ndarray, side: float) -> Spot:
-    """A free spot near the middle, as high as wide."""
-    for own in (side, 0.75 * side, 0.5 * side):
-        position = plan.place(rng, own, own, middle[[0, 2]] - 2.0, middle[[0, 2]] + 2.0)
-        if position is not None:
-            break
-    return Spot(position, own, rng.uniform(0, 2 * np.pi))
 
 
 def _trees(rng: np.random.Generator, plan: Plan, middle: np.ndarray) -> tuple[list[Placed], float]:
@@ -133,15 +125,10 @@ def _trellis(rng: np.random.Generator) -> Drawn:
     return outdoors.trellis(width, rng.uniform(1.0, 1.7)), width + 0.2, 0.3
 
 
-def _lantern(rng: np.random.Generator) -> Drawn:
-    arm = rng.uniform(0.2, 0.32)
-    return outdoors.lantern(rng.uniform(1.4, 1.8), arm), 2 * arm + 0.3, 0.4
-
-
 def _pergola(rng: np.random.Generator) -> Drawn:
     width, depth = rng.uniform([1.0, 0.9], [1.6, 1.3])
     shape = outdoors.pergola(width, depth, rng.uniform(1.3, 1.7), int(rng.integers(6, 14)))
     return shape, width + 0.5, depth + 0.6
 
 
-_KINDS: tuple[Kind, ...] = (_rods, _strung, _bush, _trellis, _lantern, _pergola)
+_KINDS: tuple[Kind, ...] = (_rods, _strung, _bush, _trellis, outdoors.lantern, _pergola)

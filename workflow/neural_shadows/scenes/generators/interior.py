@@ -27,7 +27,7 @@ from neural_shadows.scenes.pieces.hanging import (
     shade_lamp,
     wires,
 )
-from neural_shadows.scenes.pieces.plan import Drawn, Kind, Plan, furnish
+from neural_shadows.scenes.pieces.plan import Drawn, Kind, Plan, free_spot, furnish
 from neural_shadows.scenes.pieces.shapes import Shape, at, beams, box, boxes, joined, placed
 
 TABLE = 0.75
@@ -52,7 +52,8 @@ def arrange(rng: np.random.Generator) -> Arrangement:
     objects.append(placed("beams", frame_over(posts, hung)))
     laid, table_spot = _laid_table(rng, plan, middle)
     objects += laid
-    spot = _floor_spot(rng, plan, middle)
+    about = middle[[0, 2]] + [-1.9, -1.4], middle[[0, 2]] + [1.9, 1.2]
+    spot = free_spot(rng, plan, (1.0, 0.8, 0.6, 0.45), *about)
     kinds = [KINDS[k] for k in rng.choice(len(KINDS), 6, replace=False)]
     objects += furnish(rng, plan, kinds, rng.integers(14, 22), objects)
     objects += _hanging(rng, plan, posts, hung)
@@ -188,16 +189,6 @@ def _laid_table(
     return parts, Spot(position + [0, TABLE, 0], 0.5, rng.uniform(0, 2 * np.pi))
 
 
-def _floor_spot(rng: np.random.Generator, plan: Plan, middle: np.ndarray) -> Spot:
-    """A free spot near the middle, as high as wide."""
-    for side in (1.0, 0.8, 0.6, 0.45):
-        low, high = middle[[0, 2]] + [-1.9, -1.4], middle[[0, 2]] + [1.9, 1.2]
-        position = plan.place(rng, side, side, low, high)
-        if position is not None:
-            break
-    return Spot(position, side, rng.uniform(0, 2 * np.pi))
-
-
 def _shelf(rng: np.random.Generator) -> Drawn:
     width = rng.uniform(0.8, 1.5)
     return shelf(rng, width, rng.uniform(1.1, 1.8), rng.integers(3, 6)), width + 0.1, 0.42
@@ -229,10 +220,6 @@ def _plant(rng: np.random.Generator) -> Drawn:
 def _column(rng: np.random.Generator) -> Drawn:
     radius = rng.uniform(0.1, 0.18)
     return column(rng.uniform(1.2, 1.9), radius), 3.2 * radius, 3.2 * radius
-
-
-def _crates(rng: np.random.Generator) -> Drawn:
-    return fittings.crates(rng, rng.integers(2, 6)), 0.75, 0.6
 
 
 def _rail(rng: np.random.Generator) -> Drawn:
@@ -275,7 +262,7 @@ def _plinth(rng: np.random.Generator) -> Drawn:
 
 
 KINDS: tuple[Kind, ...] = (
-    *(_shelf, _rack, _grille, _desk, _plant, _column, _crates),
+    *(_shelf, _rack, _grille, _desk, _plant, _column, fittings.crates),
     *(_rail, _lamp, _podium, _easel, _stools, _bench, _plinth),
 )
 

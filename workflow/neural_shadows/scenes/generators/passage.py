@@ -6,11 +6,11 @@ round them, so that penumbrae are wide; a light has room for a radius of 0.1 m.
 
 import numpy as np
 
-from neural_shadows.scenes.arrangement import Arrangement, Placed, Region, Spot
+from neural_shadows.scenes.arrangement import Arrangement, Placed, Region
 from neural_shadows.scenes.generators.interior import KINDS
 from neural_shadows.scenes.pieces.building import arcade, column, floor
 from neural_shadows.scenes.pieces.furniture import chair
-from neural_shadows.scenes.pieces.plan import Drawn, Kind, Plan, furnish
+from neural_shadows.scenes.pieces.plan import Drawn, Kind, Plan, free_spot, furnish
 from neural_shadows.scenes.pieces.shapes import Shape, at, beams, box, boxes, joined, placed
 
 _BESIDE = 0.45  # least distance of lights to objects, metres
@@ -29,7 +29,9 @@ def arrange(rng: np.random.Generator) -> Arrangement:
     lights = _lights(rng, plan, middle)
 
     objects = [placed("floor", floor(width, depth))]
-    spot = _spot(rng, plan, middle, 0.8)
+    about = middle[[0, 2]] - 2.4, middle[[0, 2]] + 2.2
+    sides = np.array([1, 0.75, 0.5, 0.4])
+    spot = free_spot(rng, plan, 0.8 * sides, *about)
     seat = plan.place(rng, 0.7, 0.7, middle[[0, 2]] - 1.8, middle[[0, 2]] + [1.8, 1.0])
     seat = np.array([-plan.width / 2 + 0.4, 0, 0]) if seat is None else seat
     objects.append(placed("chair", at(chair(), seat, rng.uniform(0, 2 * np.pi))))
@@ -37,7 +39,7 @@ def arrange(rng: np.random.Generator) -> Arrangement:
         wall = _inner_wall(rng, plan, middle)
         if wall is not None:
             objects.append(placed(f"wall {number + 1}", wall))
-    other = _spot(rng, plan, middle, 0.6)
+    other = free_spot(rng, plan, 0.6 * sides, *about)
     kinds = [_KINDS[k] for k in rng.choice(len(_KINDS), 6, replace=False)]
     objects += furnish(rng, plan, kinds, rng.integers(16, 26), objects)
     objects += _outer_walls(rng, width, depth)
@@ -59,17 +61,6 @@ def _lights(rng: np.random.Generator, plan: Plan, middle: np.ndarray) -> Region:
     plan.take(centre[[0, 2]] - half[[0, 2]] - _BESIDE, centre[[0, 2]] + half[[0, 2]] + _BESIDE)
     centre[1] = rng.uniform(1.3, 2.4) + half[1]
     return Region(centre - half, centre + half)
-
-
-def _spot(rng: np.random.Generator, plan: Plan, middle: np.ndarray, side: float) -> Spot:
-    """A free spot, as high as wide."""
-    for own in (side, 0.75 * side, 0.5 * side, 0.4 * side):
-        position = plan.place(rng, own, own, middle[[0, 2]] - 2.4, middle[[0, 2]] + 2.2)
-        if position is not None:
-            break
-    else:
-        position = np.array([plan.width / 2 - own, 0, -plan.depth / 2 + own])
-    return Spot(position, own, rng.uniform(0, 2 * np.pi))
 
 
 def _inner_wall(rng: np.random.Generator, plan: Plan, middle: np.ndarray) -> Shape | None:

@@ -3,6 +3,7 @@
 import numpy as np
 
 from neural_shadows.scenes.pieces.building import balustrade, flight
+from neural_shadows.scenes.pieces.plan import Drawn
 from neural_shadows.scenes.pieces.shapes import (
     Shape,
     at,
@@ -36,12 +37,12 @@ def stool(height: float = 0.62) -> Shape:
     return joined(lathe(seat, 28), legs, at(ring(0.17, 0.008), (0, 0.22, 0)))
 
 
-def crates(rng: np.random.Generator, levels: int) -> Shape:
-    """A stack of slatted crates, 0.55 wide, slightly rotated."""
+def crates(rng: np.random.Generator) -> Drawn:
+    """A stack of two to five slatted crates, 0.55 wide, slightly rotated."""
     parts = []
     x, z, high = 0.27, 0.19, 0.26
     corners = np.array([[a, 0, b] for a in (-x, x) for b in (-z, z)])
-    for level in range(levels):
+    for level in range(rng.integers(2, 6)):
         ys = np.array([0.03, 0.11, 0.19])[:, None] * [0, 1, 0]
         long = [ys + [-x - 0.015, 0.03, side] for side in (-z - 0.02, z + 0.02)]
         short = [ys + [side, 0.03, -z - 0.015] for side in (-x - 0.02, x + 0.02)]
@@ -53,7 +54,7 @@ def crates(rng: np.random.Generator, levels: int) -> Shape:
             beams(floor, floor + [2 * x, 0, 0], 0.05, 0.012),
         )
         parts.append(at(crate, (0, level * high, 0), rng.uniform(-0.12, 0.12)))
-    return joined(*parts)
+    return joined(*parts), 0.75, 0.6
 
 
 def cloth_rail(rng: np.random.Generator, width: float, height: float = 1.6) -> Shape:

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from neural_shadows.scenes.pieces.plan import Drawn
 from neural_shadows.scenes.pieces.shapes import (
     Shape,
     at,
@@ -146,8 +147,10 @@ def pole(foot: np.ndarray, height: float) -> Shape:
     return joined(bars([foot], [top], 0.03, 14), balls([top], 0.045, 2))
 
 
-def lantern(height: float, arm: float) -> Shape:
-    """A post with two arms, each with a lantern."""
+def lantern(rng: np.random.Generator) -> Drawn:
+    """A post with two arms along x, each with a lantern."""
+    arm = rng.uniform(0.2, 0.32)
+    height = rng.uniform(1.4, 1.8)
     foot = [(0, 0), (0.13, 0), (0.13, 0.08), (0.05, 0.14), (0.04, height), (0.0, height + 0.03)]
     ends = np.array([[-arm, height - 0.1, 0], [arm, height - 0.1, 0]])
     angle = 2 * np.pi * np.arange(10) / 10
@@ -156,13 +159,14 @@ def lantern(height: float, arm: float) -> Shape:
     tops = (ends[:, None] + 0.6 * out - [0, 0.05, 0]).reshape(-1, 3)
     cap = lathe([(0, 0), (0.13, 0), (0.02, 0.09), (0, 0.09)], 16)
     floor = lathe([(0, 0), (0.12, 0), (0.12, 0.02), (0, 0.02)], 16)
-    return joined(
+    shape = joined(
         lathe(foot, 16),
         bars(ends[:1], ends[1:], 0.018, 10),
         bars(feet, tops, 0.006, 6),
         *(at(cap, end - [0, 0.06, 0]) for end in ends),
         *(at(floor, end - [0, 0.36, 0]) for end in ends),
     )
+    return shape, 2 * arm + 0.3, 0.4
 
 
 def grass(rng: np.random.Generator, width: float, depth: float, blades: int) -> Shape:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from neural_shadows.scenes.arrangement import Placed
+from neural_shadows.scenes.arrangement import Placed, Spot
 from neural_shadows.scenes.pieces.shapes import Shape, at, placed
 
 _TRIES = 60
@@ -74,6 +74,23 @@ class Plan:
                 self.take(middle - half, middle + half, top)
                 return np.array([middle[0], 0.0, middle[1]])
         return None
+
+
+def free_spot(rng: np.random.Generator, plan: Plan, sides: Sequence[float], low, high) -> Spot:
+    """Draw a free spot, as high as wide, of the first of `sides` that finds room.
+
+    In the back corner if none does.
+
+    Args:
+        low, high: corners (x, z) of the range of its middle.
+    """
+    for side in sides:
+        position = plan.place(rng, side, side, low, high)
+        if position is not None:
+            break
+    else:
+        position = np.array([plan.width / 2 - side, 0, -plan.depth / 2 + side])
+    return Spot(position, side, rng.uniform(0, 2 * np.pi))
 
 
 def furnish(
