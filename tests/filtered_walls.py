@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from neural_shadows.denoising.ffx import FfxFilter, ffx_like
+from neural_shadows.denoising.ffx import FfxFilter
 from neural_shadows.denoising.sigma import SigmaFilter
-from neural_shadows.denoising.svgf import SvgfFilter, svgf_like
+from neural_shadows.denoising.svgf import SvgfFilter
 
 HEIGHT, WIDTH = 40, 56
 COLUMNS = np.broadcast_to(np.arange(WIDTH), (HEIGHT, WIDTH))
@@ -30,11 +30,15 @@ def two_walls(edge):
 
 
 def svgf(visibility, depth, normal):
-    return svgf_like(SvgfFilter(*depth.shape), visibility, depth, normal)
+    filter_ = SvgfFilter(*depth.shape)
+    filter_.see(depth, normal)
+    return filter_.smooth(visibility, filter_.variance(visibility, visibility * visibility))[1]
 
 
 def ffx(visibility, depth, normal):
-    return ffx_like(FfxFilter(*depth.shape), visibility, depth, normal)
+    filter_ = FfxFilter(*depth.shape)
+    filter_.see(depth, normal)
+    return filter_.smooth(visibility, 3 * filter_.neighbourhood(visibility)[1])[1]
 
 
 def seen_by_sigma(filter_, depth, normal):

@@ -12,7 +12,7 @@ import torch
 from PIL import Image
 from soft_viewer_page import NETWORKS, frame_of, images_of, make_soft_viewer
 
-from neural_shadows.denoising.ffx import FfxFilter, ffx_like
+from neural_shadows.denoising.ffx import FfxFilter
 from neural_shadows.evaluation.method_parts import scene_fields
 from neural_shadows.evaluation.methods import moments, object_cones, pcf, pcss
 from neural_shadows.frames.feature_names import FEATURES, TRACED, buffers_of, channels_of
@@ -120,7 +120,6 @@ def test_classic_methods(page, data, frame, share):
     """Maps, rays and the filter, with constants of their own."""
     radius = share * data["radius"]
     rays = image(frame, ray_traced(frame, radius, samples=2 if radius else 1))
-    normals = frame.surface.image(frame.surface.n)
     expected = {
         "pcf": image(frame, pcf._box(frame, radius, size=9, bias=1.0)),
         "pcss": image(frame, pcss._visibility(frame, radius, scale=1.0, bias=1.0)),
@@ -132,9 +131,7 @@ def test_classic_methods(page, data, frame, share):
         ),
         "rays_2": rays,
         "truth": image(frame, ray_traced(frame, radius, samples=RAYS if radius else 1)),
-        "rays_2_ffx": ffx_like(
-            FfxFilter(HEIGHT, WIDTH), rays, frame.surface.depth_image(), normals
-        ),
+        "rays_2_ffx": FfxFilter(HEIGHT, WIDTH).single(rays, frame.surface),
     }
     for key, values in expected.items():
         assert_alike(answers(page, key, asked(data, share)), values, key)

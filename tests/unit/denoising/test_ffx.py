@@ -4,13 +4,13 @@ from itertools import product
 
 import numpy as np
 import pytest
-from filtered_walls import COLUMNS, HEIGHT, WIDTH, wall
+from filtered_walls import COLUMNS, HEIGHT, WIDTH, ffx, wall
 from plate_frames import HEIGHT as ROWS
 from plate_frames import WIDTH as COLS
 from plate_frames import plate_frame
 from scipy.ndimage import convolve, convolve1d
 
-from neural_shadows.denoising.ffx import FfxFilter, TemporalFfx, ffx_like
+from neural_shadows.denoising.ffx import FfxFilter, TemporalFfx
 from neural_shadows.denoising.mixed_blocks import SIDE, Neighbourhoods
 
 
@@ -85,18 +85,14 @@ def test_noise_over_time_and_a_sudden_change():
     surface, temporal = plate_frame().surface, TemporalFfx(ROWS, COLS)
     rays = np.random.default_rng(0).random((12, ROWS, COLS)) < 0.5
     pictures = [temporal.next_frame(one.astype(np.float32), surface) for one in rays]
-    alone = ffx_like(FfxFilter(ROWS, COLS), rays[-1] * np.float32(1), *wall_of(surface))
+    alone = FfxFilter(ROWS, COLS).single(rays[-1].astype(np.float32), surface)
     assert np.std(pictures[-1]) < np.std(alone) / 1.5
     assert abs(pictures[-1].mean() - rays.mean()) < 0.02
     assert np.array_equal(temporal.next_frame(constant(1), surface), constant(1))
 
 
-def wall_of(surface):
-    return surface.depth_image(), surface.image(surface.n)
-
-
 def test_a_wall_of_one_pixel_in_width():
     depth, normal = (image[:, :1] for image in wall())
     picture = np.float32(np.arange(HEIGHT)[:, None] % 2)
-    found = ffx_like(FfxFilter(HEIGHT, 1), picture, depth, normal)
+    found = ffx(picture, depth, normal)
     assert found.shape == (HEIGHT, 1) and found.std() < picture.std() / 2

@@ -41,18 +41,13 @@ def test_nothing_crosses_an_edge(key, edge):
 
 _TINY = """
 import numpy as np
-from neural_shadows.denoising.ffx import FfxFilter, ffx_like
-from neural_shadows.denoising.sigma import SigmaFilter
-from neural_shadows.denoising.svgf import SvgfFilter, svgf_like
+from filtered_walls import FILTERS
 for height, width in np.ndindex(3, 4):
     size = height + 1, width + 1
     dark, depth = np.random.default_rng(width).random((2, *size), np.float32)
     place = np.stack([depth, depth, depth], axis=-1)
-    svgf_like(SvgfFilter(*size), dark, depth, place)
-    ffx_like(FfxFilter(*size), dark, depth, place)
-    sigma = SigmaFilter(*size)
-    sigma.see(place, place, depth)
-    sigma.smooth(dark, depth)
+    for denoise in FILTERS.values():
+        denoise(dark, depth, place)
 """
 
 

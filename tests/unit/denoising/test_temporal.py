@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from plate_frames import HEIGHT, RADIUS, WIDTH, error, plate_frame, plate_truth
 
-from neural_shadows.denoising.ffx import FfxFilter, TemporalFfx, ffx_like
-from neural_shadows.denoising.sigma import SigmaFilter, TemporalSigma, sigma_like
-from neural_shadows.denoising.sigma_ffx import SigmaFfxFilter, TemporalSigmaFfx, sigma_ffx_like
-from neural_shadows.denoising.svgf import SvgfFilter, svgf_like
+from neural_shadows.denoising.ffx import FfxFilter, TemporalFfx
+from neural_shadows.denoising.sigma import SigmaFilter, TemporalSigma
+from neural_shadows.denoising.sigma_ffx import SigmaFfxFilter, TemporalSigmaFfx
+from neural_shadows.denoising.svgf import SvgfFilter
 from neural_shadows.denoising.temporal import TemporalFilter
 
 KINDS = {
@@ -15,6 +15,12 @@ KINDS = {
     "ffx": TemporalFfx,
     "sigma": TemporalSigma,
     "sigma_ffx": TemporalSigmaFfx,
+}
+ALONE = {
+    "svgf": SvgfFilter,
+    "ffx": FfxFilter,
+    "sigma": SigmaFilter,
+    "sigma_ffx": SigmaFfxFilter,
 }
 
 
@@ -32,17 +38,7 @@ def pictures(key, visibility):
 
 def alone(key, visibility, surface):
     """By the form for one frame."""
-    size, shown = (HEIGHT, WIDTH), pictures(key, visibility)
-    guides = surface.depth_image(), surface.image(surface.n)
-    match key:
-        case "svgf":
-            return svgf_like(SvgfFilter(*size), *shown, *guides)
-        case "ffx":
-            return ffx_like(FfxFilter(*size), *shown, *guides)
-        case "sigma":
-            return sigma_like(SigmaFilter(*size), *shown, surface)
-        case _:
-            return sigma_ffx_like(SigmaFfxFilter(*size), *shown, surface)
+    return ALONE[key](HEIGHT, WIDTH).single(*pictures(key, visibility), surface)
 
 
 def sequence(key, shifts, seed=0):

@@ -87,12 +87,11 @@ class FfxFilter:
                 first = np.clip(light, 0, 1)
         return first, np.clip(light, 0, 1)
 
-
-def ffx_like(filter_: FfxFilter, visibility: np.ndarray, depth: np.ndarray, normal: np.ndarray):
-    """Filter one picture without history, (H, W) float32; see `FfxFilter`."""
-    filter_.see(depth, normal)
-    _, noise = filter_.neighbourhood(visibility)
-    return filter_.smooth(visibility, (_BOOST - 1) * noise)[1]
+    def single(self, visibility: np.ndarray, surface: Surface) -> np.ndarray:
+        """Smooth a picture (H, W) float32 without history."""
+        self.see(surface.depth_image(), surface.image(surface.n))
+        _, noise = self.neighbourhood(visibility)
+        return self.smooth(visibility, (_BOOST - 1) * noise)[1]
 
 
 class TemporalFfx:

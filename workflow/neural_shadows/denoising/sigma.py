@@ -102,19 +102,13 @@ class SigmaFilter:
             width, next_width = next_width, width
         return np.clip(light, 0, 1)
 
-
-def see_surface_of(filter_: SigmaFilter, surface: Surface) -> None:
-    """Set a filter's surface to a frame's."""
-    pixel = surface.depth_image() / np.float32(surface.camera.focal(surface.height))
-    filter_.see(surface.image(surface.p), surface.image(surface.n_g), pixel)
-
-
-def sigma_like(
-    filter_: SigmaFilter, visibility: np.ndarray, penumbra: np.ndarray, surface: Surface
-) -> np.ndarray:
-    """Filter one picture without history, (H, W) float32; see `SigmaFilter`."""
-    see_surface_of(filter_, surface)
-    return filter_.smooth(visibility, penumbra)
+    def single(
+        self, visibility: np.ndarray, penumbra: np.ndarray, surface: Surface, turned: int = 0
+    ) -> np.ndarray:
+        """Smooth a picture (H, W) float32 without history; see `smooth`."""
+        pixel = surface.depth_image() / np.float32(surface.camera.focal(surface.height))
+        self.see(surface.image(surface.p), surface.image(surface.n_g), pixel)
+        return self.smooth(visibility, penumbra, turned)
 
 
 class TemporalSigma:
@@ -144,8 +138,7 @@ class TemporalSigma:
             visibility, penumbra: see `SigmaFilter.smooth`.
             was: (n, 3), where the surface's points were a frame ago; see `seen_before`.
         """
-        see_surface_of(self._spatial, surface)
-        picture = self._spatial.smooth(visibility, penumbra, self._frame)
+        picture = self._spatial.single(visibility, penumbra, surface, self._frame)
         self._frame += 1
         pixels, (past, frames) = self._history.at(surface, 2, was)
         mean, deviation = (image.ravel()[pixels] for image in _nearby(picture))

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from neural_shadows.denoising.ffx import SIGMA, FfxFilter, TemporalFfx, ffx_like
-from neural_shadows.denoising.sigma import REACH, SigmaFilter, sigma_like
+from neural_shadows.denoising.ffx import SIGMA, FfxFilter, TemporalFfx
+from neural_shadows.denoising.sigma import REACH, SigmaFilter
 from neural_shadows.rendering.surface import Surface
 
 
@@ -15,16 +15,12 @@ class SigmaFfxFilter:
     """
 
     def __init__(self, height: int, width: int, reach: float = REACH, sigma: float = SIGMA):
-        self.wide = SigmaFilter(height, width, reach)
-        self.fine = FfxFilter(height, width, sigma)
+        self._wide = SigmaFilter(height, width, reach)
+        self._fine = FfxFilter(height, width, sigma)
 
-
-def sigma_ffx_like(
-    filter_: SigmaFfxFilter, visibility: np.ndarray, penumbra: np.ndarray, surface: Surface
-) -> np.ndarray:
-    """Filter one picture without history, (H, W) float32; see `SigmaFilter.smooth`."""
-    wide = sigma_like(filter_.wide, visibility, penumbra, surface)
-    return ffx_like(filter_.fine, wide, surface.depth_image(), surface.image(surface.n))
+    def single(self, visibility: np.ndarray, penumbra: np.ndarray, surface: Surface) -> np.ndarray:
+        """Smooth a picture (H, W) float32 without history; see `SigmaFilter.smooth`."""
+        return self._fine.single(self._wide.single(visibility, penumbra, surface), surface)
 
 
 class TemporalSigmaFfx:
@@ -46,6 +42,5 @@ class TemporalSigmaFfx:
         was: np.ndarray | None = None,
     ) -> np.ndarray:
         """The next frame's picture, (H, W) float32; see `TemporalSigma.next_frame`."""
-        return self._fine.next_frame(
-            sigma_like(self._wide, visibility, penumbra, surface), surface, was
-        )
+        wide = self._wide.single(visibility, penumbra, surface)
+        return self._fine.next_frame(wide, surface, was)

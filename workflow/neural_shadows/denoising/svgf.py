@@ -13,6 +13,7 @@ from neural_shadows.denoising.wavelet import (
     fill_sharpness,
     fill_slopes,
 )
+from neural_shadows.rendering.surface import Surface
 
 SIGMA_LUMINANCE = 4.0  # σ_l, in standard deviations (4.4)
 PASSES = 5  # of the 5 × 5 kernel, its taps 1, 2, 4, 8, 16 pixels apart (4.4)
@@ -79,8 +80,7 @@ class SvgfFilter:
                 first = np.clip(light, 0, 1)
         return first, np.clip(light, 0, 1)
 
-
-def svgf_like(filter_: SvgfFilter, visibility: np.ndarray, depth: np.ndarray, normal: np.ndarray):
-    """Filter one picture without history, (H, W) float32; see `SvgfFilter`."""
-    filter_.see(depth, normal)
-    return filter_.smooth(visibility, filter_.variance(visibility, visibility * visibility))[1]
+    def single(self, visibility: np.ndarray, surface: Surface) -> np.ndarray:
+        """Smooth a picture (H, W) float32 without history."""
+        self.see(surface.depth_image(), surface.image(surface.n))
+        return self.smooth(visibility, self.variance(visibility, visibility * visibility))[1]

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from neural_shadows.denoising.ffx import FfxFilter, TemporalFfx, ffx_like
+from neural_shadows.denoising.ffx import FfxFilter, TemporalFfx
 from neural_shadows.denoising.oidn import open_image_denoise
-from neural_shadows.denoising.sigma import SigmaFilter, TemporalSigma, sigma_like
-from neural_shadows.denoising.sigma_ffx import SigmaFfxFilter, TemporalSigmaFfx, sigma_ffx_like
-from neural_shadows.denoising.svgf import SvgfFilter, svgf_like
+from neural_shadows.denoising.sigma import SigmaFilter, TemporalSigma
+from neural_shadows.denoising.sigma_ffx import SigmaFfxFilter, TemporalSigmaFfx
+from neural_shadows.denoising.svgf import SvgfFilter
 from neural_shadows.denoising.temporal import TemporalFilter
 from neural_shadows.frames.ray_tracing import ray_traced, ray_traced_penumbrae
 from neural_shadows.frames.soft_frame import SoftFrame
@@ -88,24 +88,16 @@ def sequence_denoiser(
     return step
 
 
-def _depth_and_normal(surface: Surface) -> tuple[np.ndarray, np.ndarray]:
-    return surface.depth_image(), surface.image(surface.n)
-
-
-def _single(kind: type, like: Callable, guides: Callable = lambda surface: (surface,)) -> Callable:
+def _single(kind: type) -> Callable:
     """A `Denoiser`'s `single`; one filter of a kind is cached.
 
     50 MB for a million pixels, and the frames of a set have one size.
-
-    Args:
-        like: of the filter, the pictures and the surface's guides, the smooth picture.
     """
     cached = lru_cache(maxsize=1)(kind)
 
     def single(*pictures_and_surface, **constants: float) -> np.ndarray:
-        *pictures, surface = pictures_and_surface
-        filter_ = cached(*pictures[0].shape, **constants)
-        return like(filter_, *pictures, *guides(surface))
+        filter_ = cached(*pictures_and_surface[0].shape, **constants)
+        return filter_.single(*pictures_and_surface)
 
     return single
 
@@ -115,12 +107,10 @@ def _oidn(picture: np.ndarray, surface: Surface, *, quality: str) -> np.ndarray:
 
 
 BY_KEY = {
-    "svgf": Denoiser(_single(SvgfFilter, svgf_like, _depth_and_normal), TemporalFilter),
-    "ffx": Denoiser(_single(FfxFilter, ffx_like, _depth_and_normal), TemporalFfx),
-    "sigma": Denoiser(_single(SigmaFilter, sigma_like), TemporalSigma, distances=True),
-    "sigma_ffx": Denoiser(
-        _single(SigmaFfxFilter, sigma_ffx_like), TemporalSigmaFfx, distances=True
-    ),
+    "svgf": Denoiser(_single(SvgfFilter), TemporalFilter),
+    "ffx": Denoiser(_single(FfxFilter), TemporalFfx),
+    "sigma": Denoiser(_single(SigmaFilter), TemporalSigma, distances=True),
+    "sigma_ffx": Denoiser(_single(SigmaFfxFilter), TemporalSigmaFfx, distances=True),
     "oidn_fast": Denoiser(partial(_oidn, quality="fast")),
     "oidn": Denoiser(partial(_oidn, quality="high")),
 }
