@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from neural_shadows.representations.distance_bricks.field_marching import BRICK
+from neural_shadows.representations.distance_bricks.field_marching import BRICK, trilinear
 
 # Fitted on three frames of the Stanford dragon at 256³ for suns of radius 1, 2.5 and 5 degrees.
 # Inside a thin object the distance ends at half its thickness, and its far edge covers too: depths
@@ -60,22 +60,6 @@ def half_disc(m):
     return np.float32(1 - (np.arccos(m) - m * np.sqrt(1 - m * m)) / np.pi)
 
 
-@njit(cache=True, nogil=True, inline="always")
-def _trilinear(v, at, across, along, x, y, z):
-    """Trilinear interpolation from `v[at]`, with strides of x and y."""
-    a = np.float32(v[at])
-    a += (v[at + 1] - a) * z
-    b = np.float32(v[at + along])
-    b += (v[at + along + 1] - b) * z
-    c = np.float32(v[at + across])
-    c += (v[at + across + 1] - c) * z
-    e = np.float32(v[at + across + along])
-    e += (v[at + across + along + 1] - e) * z
-    a += (b - a) * y
-    c += (e - c) * y
-    return a + (c - a) * x
-
-
 @njit(cache=True, nogil=True)
 def _distance(field, x, y, z):
     """Distance to the surface, negative inside; beyond [−1, 1]³ by way of the cube's border."""
@@ -97,11 +81,11 @@ def _distance(field, x, y, z):
         c = min(max(int(r), 0), BRICK - 1)
         at = (a * (BRICK + 1) + b) * (BRICK + 1) + c
         p, q, r = p - np.float32(a), q - np.float32(b), r - np.float32(c)
-        value = _trilinear(field.bricks[brick], at, 25, 5, p, q, r)
+        value = trilinear(field.bricks[brick], at, 25, 5, p, q, r)
         if abs(value) < 120:
             return beyond - value * field.unit
     n = size + 1
-    return beyond + _trilinear(field.around, (i * n + j) * n + k, n * n, n, u, v, w)
+    return beyond + trilinear(field.around, (i * n + j) * n + k, n * n, n, u, v, w)
 
 
 @njit(cache=True, nogil=True)

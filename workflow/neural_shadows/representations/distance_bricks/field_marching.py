@@ -28,16 +28,16 @@ def skips(surface: np.ndarray) -> np.ndarray:
 
 
 @njit(cache=True, nogil=True, inline="always")
-def trilinear(values, at, u, v, w):
-    """Interpolate flat brick values from corner `at` of a cell; u, v, w in [0, 1]."""
+def trilinear(values, at, across, along, u, v, w):
+    """Interpolate flat values from corner `at` of a cell, with strides of u and v in [0, 1]."""
     a = np.float32(values[at])
     a += (values[at + 1] - a) * w
-    b = np.float32(values[at + 5])
-    b += (values[at + 6] - b) * w
-    c = np.float32(values[at + 25])
-    c += (values[at + 26] - c) * w
-    e = np.float32(values[at + 30])
-    e += (values[at + 31] - e) * w
+    b = np.float32(values[at + along])
+    b += (values[at + along + 1] - b) * w
+    c = np.float32(values[at + across])
+    c += (values[at + across + 1] - c) * w
+    e = np.float32(values[at + across + along])
+    e += (values[at + across + along + 1] - e) * w
     a += (b - a) * v
     c += (e - c) * v
     return a + (c - a) * u
@@ -47,7 +47,8 @@ def trilinear(values, at, u, v, w):
 def _value(values, x, y, z):
     """Value of a brick at x, y, z in [0, 4]."""
     i, j, k = min(int(x), BRICK - 1), min(int(y), BRICK - 1), min(int(z), BRICK - 1)
-    return trilinear(values, (i * (BRICK + 1) + j) * (BRICK + 1) + k, x - i, y - j, z - k)
+    at = (i * (BRICK + 1) + j) * (BRICK + 1) + k
+    return trilinear(values, at, 25, 5, x - i, y - j, z - k)
 
 
 @njit(cache=True, nogil=True, inline="always")
