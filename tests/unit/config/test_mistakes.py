@@ -49,11 +49,6 @@ claims.sampling.radii | [1] | claims.sampling.radii: it needs `table`. Name one
 claims.rays_at_equal_time.radii | null | `rays_of_equal_time` needs radii. List some
 claims.rays_at_equal_time.pairs | [[pcss, rays_of_equal_time]] | soft_windows.methods: 'rays_of_equal_time' is not among
 claims.rays_at_equal_time.table | kpnsm_table_1 | rays_at_equal_time.table: 'kpnsm_table_1' is not among
-claims.sampling.needs | {device: tpu} | needs.device = 'tpu': Input should be 'cuda' or 'cpu'
-claims.sampling.needs | {seeds: many} | needs.seeds = 'many': Input should be a valid integer
-claims.sampling.needs | {seeds: 0} | needs.seeds = 0: Input should be greater than or equal to 1
-claims.sampling.needs | {budget: 3} | needs.budget = 3: Input should be less than or equal to 1
-claims.sampling.needs | {mesh: bunny} | needs.mesh = 'bunny': Input should be 'thesis'
 claims.sampling.needs | {seed: 3} | needs: unknown key: 'seed' (did you mean 'seeds'?) is not among
 claims.printed_comparable_to_512.row | nothing | rows of table 4.5: 'nothing' is not among
 claims.printed_comparable_to_512.equivalent_to | 64 | 'shadow_map_64' (did you mean
@@ -146,6 +141,34 @@ tables.nsm_table_s2.network | nms | tables.nsm_table_s2.network: 'nms' (did you 
 figures.figure_nsm_level_time.table | memory | 'memory' is not among nsm_table_s3
 figures.figure_soft_equal_time.radii | [9] | radii: 9 is not among 0 to 4, the radii of 'frames'
 figures.figure_soft_pictures.radii | [-1] | radii: -1 is not among 0 to 4, the radii of 'frames'
+experiments.nsm.scenes | [room_dragon] | experiments.nsm.scenes: 'room_dragon' is in `unseen` of frame_sets.nsm
+experiments.nsm.scenes | [rom] | experiments.nsm.scenes: 'rom' (did you mean 'room'?)
+experiments.nsm.lights | [1, 5] | experiments.nsm.lights = [1, 5]: frame_sets.nsm has 5 radii, counted from 0
+experiments.nsm.frame_set | nsm_between | experiments.nsm.frame_set: frame_sets.nsm_between has train = 0
+frame_sets.nsm.twins | {count: 0} | experiments.nsm.training: perturbation = 3 needs perturbed frames
+experiments.kernels_rays | {network: kernels_rays, training: kpnsm, frame_set: windows, scenes: [atrium]} | filters rays, and frame_sets.windows has rays = 0
+experiments.kernels_rays.training | nsm | perturbation = 3: perturbed frames have no rays, which the network filters. Set perturbation: 0
+networks.kpnsm.edge | 1 | networks.kpnsm: edge: needs the feature 'log_d'
+networks.kpnsm.features | [cosine, z_b] | networks.kpnsm.features: kernels filter one of the features base_hard
+experiments.nsm.network | original_5 | experiments.nsm.network: 'original_5' (did you mean 'original'?) is not among nsm, trimmed
+experiments.nsm.training | {steps: 1, crops: 1, crop: 15, learning_rate: 1.0} | experiments.nsm.training: crop = 15: the network's deepest level is 1/16 of a frame. Set 16 or more
+experiments.mine | {network: {form: direct, widths: [4, 8, 8, 8], features: [c_e]}, training: {steps: 1, crops: 1, crop: 15, learning_rate: 1.0}, frame_set: nsm, scenes: [room]} | 1/16 of a frame
+experiments.mine | {network: {form: direct, widths: [4, 8], features: [c_e]}, training: {steps: 1, crops: 3, crop: 64, learning_rate: 1.0}, frame_set: nsm, scenes: [room]} | crops = 3: the network's batch norms take two crops at a time. Set an even number
+experiments.nsm.training | {steps: 10, crops: 2, crop: 32, learning_rate: 0.1, schedule: steps} | tenth_from = []: needs one step or more with `schedule: st
+experiments.nsm.training | {steps: 10, crops: 2, crop: 32, learning_rate: 0.1, tenth_from: [2]} | = [2]: needs one step or more with `schedule: steps`, and none with another; the schedule is 'cosine'
+experiments.nsm.training | {steps: 10, crops: 2, crop: 32, learning_rate: 0.1, schedule: steps, tenth_from: [4, 10]} | = [4, 10]: must be ascending, without repetition, and end below steps = 10
+networks_by_scene.mine | {experiments: [nsm, nsm_plain], label: Mine} | networks_by_scene.mine.experiments: 'room' has two networks
+networks_by_scene.nsm | {experiments: [nsm], label: Mine} | networks_by_scene.nsm: an entry of `experiments` has this name
+frame_sets.windows.unseen | [] | tables.kpnsm_unseen.over: frame_sets.windows has no `unseen`
+frame_sets.windows.sequence | 0 | tables.kpnsm_table_3.frame_set: frame_sets.windows has sequence = 0
+tables.kpnsm_unseen.metrics | [time] | tables.kpnsm_unseen: metrics: time is not available with `by: scene`
+tables.kpnsm_unseen.methods | [kpnsm, {method: kpnsm, label: K}] | tables.kpnsm_unseen.methods: 'kpnsm' is listed twice
+tables.soft_methods.methods | [pcss, pcss] | tables.soft_methods.methods: 'pcss' is listed twice
+claims.kpnsm_leaks_less.again | {pcss_post: [kpnsm]} | claims.kpnsm_leaks_less.again: 'pcss_post' is not among kpnsm
+claims.kpnsm_leaks_less.again | {msm_15: [kpnsm_basic]} | claims.kpnsm_leaks_less.again: 'msm_15' is not among kpnsm
+claims.kpnsm_leaks_less.again | {kpnsm: [kpnsm_basic]} | again.kpnsm: 'kpnsm_basic' has another network than 'kpnsm'. Let it differ in `seed`
+claims.kpnsm_leaks_less.again | {kpnsm: [kpnsm]} | claims.kpnsm_leaks_less.again: 'kpnsm' is listed twice
+claims.nsm_wider_with_the_light.again | {nsm_between: [nsm_between]} | claims.nsm_wider_with_the_light.again: 'nsm_between' is listed twice
 """
 
 
