@@ -1,7 +1,7 @@
 """The SIGMA-like filter beside its formulas, a pixel at a time."""
 
 import numpy as np
-from filtered_walls import PIXEL, seen_by_sigma, wall
+from filtered_walls import PIXEL, seen_by_sigma
 
 from neural_shadows.denoising.sigma import SigmaFilter
 
@@ -73,24 +73,3 @@ def test_both_passes_are_as_written():
     assert np.abs(images[0] - light).mean() > 0.1
     # A tap on a pixel's border may fall on its other side.
     assert np.mean(np.abs(found - images[0]) > 1e-4) < 0.005
-
-
-def test_wide_penumbrae_are_blurred_and_narrow_ones_are_not():
-    depth, normal = wall()
-    rays = (np.random.default_rng(1).random(depth.shape) < 0.5).astype(np.float32)
-    spreads = []
-    for pixels in (0.01, 2, 12):
-        filter_ = seen_by_sigma(SigmaFilter(*depth.shape), depth, normal)
-        penumbra = np.where(rays < 1, np.float32(pixels * PIXEL), np.float32(-1))
-        spreads.append(filter_.smooth(rays, penumbra).std())
-    assert spreads[0] > 0.99 * rays.std() and spreads[1] < 0.5 * rays.std()
-    assert spreads[2] < 0.7 * spreads[1]
-
-
-def test_taps_turn_from_frame_to_frame():
-    depth, normal = wall()
-    rays = (np.random.default_rng(2).random(depth.shape) < 0.5).astype(np.float32)
-    filter_ = seen_by_sigma(SigmaFilter(*depth.shape), depth, normal)
-    penumbra = np.where(rays < 1, np.float32(8 * PIXEL), np.float32(-1))
-    first, again, next_ = (filter_.smooth(rays, penumbra, turned) for turned in (0, 0, 1))
-    assert np.array_equal(first, again) and not np.array_equal(first, next_)
