@@ -59,6 +59,15 @@ def sheet(height: float, half: float, winding: int = 1) -> trimesh.Trimesh:
     return trimesh.Trimesh([*corners, [half, height, -half]], faces, process=False)
 
 
+def hills(cells: int = 32) -> trimesh.Trimesh:
+    """An open height field of cells² squares, whose hills shadow each other."""
+    x, z = (axis.ravel() for axis in np.meshgrid(*[np.linspace(-1, 1, cells + 1)] * 2))
+    corner = np.arange(len(x)).reshape(cells + 1, -1)[:-1, :-1].reshape(-1, 1)
+    faces = [corner + [0, cells + 1, 1], corner + [1, cells + 1, cells + 2]]
+    heights = 0.2 * np.sin(5 * x) * np.cos(4 * z)
+    return trimesh.Trimesh(np.stack([x, heights, z], 1), np.concatenate(faces), process=False)
+
+
 def unit(*vector: float) -> np.ndarray:
     return np.array(vector) / np.linalg.norm(vector)
 

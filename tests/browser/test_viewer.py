@@ -8,7 +8,7 @@ import pytest
 import torch
 import trimesh
 from PIL import Image
-from shapes import bumpy_sphere, looking, scene_of, sheet, unit
+from shapes import bumpy_sphere, hills, looking, scene_of, sheet, unit
 from viewer_page import FIELD, make_viewer
 
 from neural_shadows.evaluation.ray_network import network_method
@@ -505,16 +505,6 @@ def test_what_is_no_mesh_is_refused_in_a_sentence(open_viewer, name, content, re
     page.locator(".notice", has_text=reason).wait_for()
     assert page.locator(".notice").inner_text().endswith(".")
     assert page.locator("select.left").input_value() == "map_64" and faults(page) == []
-
-
-def hills(size):
-    places = np.linspace(0, 1, size + 1)
-    x, y = (grid.ravel() for grid in np.meshgrid(places, places))
-    corner = np.arange((size + 1) ** 2).reshape(size + 1, size + 1)[:-1, :-1].ravel()
-    halves = [[0, 1, size + 1], [1, size + 2, size + 1]]
-    faces = np.concatenate([corner[:, None] + half for half in halves])
-    vertices = np.stack([x, 0.1 * np.sin(9 * x) * np.cos(7 * y), y], axis=1)
-    return trimesh.Trimesh(vertices, faces, process=False)
 
 
 def test_huge_mesh_is_merged_on_a_grid(open_viewer):

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from safetensors.numpy import load, save
-from shapes import bumpy_sphere, sheet
+from shapes import bumpy_sphere, hills
 
 from neural_shadows import ShadowField
 
@@ -41,9 +41,7 @@ def fields(tmp_path_factory):
     """A solid's and a sheet's, away from the origin, with points around them and Python's answers."""
     folder = tmp_path_factory.mktemp("fields")
     files = {}
-    hills = sheet(0.0, 1.0).subdivide_loop(5)
-    hills.vertices[:, 1] = 0.2 * np.sin(5 * hills.vertices[:, 0]) * np.cos(4 * hills.vertices[:, 2])
-    for name, shape in {"solid": bumpy_sphere(5), "sheet": hills}.items():
+    for name, shape in {"solid": bumpy_sphere(5), "sheet": hills()}.items():
         shape.vertices = 20 * shape.vertices + [100.0, -3.0, 7.0]
         field = ShadowField.fit(shape)
         assert field.sheet == (name == "sheet")
@@ -72,7 +70,7 @@ def test_a_million_rays(tmp_path, fields, name):
         done = run_sample(program, *of_path)
         assert done.returncode == 0, done.stderr
         answers = np.fromfile(tmp_path / "answers", np.uint8).astype(bool)
-        assert 0.1 < expected.mean() < 0.6
+        assert 0.05 < expected.mean() < 0.6
         assert np.mean(answers != expected) < UNLIKE
 
 

@@ -4,9 +4,8 @@ import json
 
 import numpy as np
 import pytest
-import trimesh
 from built_networks import make_network
-from shapes import SPHERE_OF_LIGHTS
+from shapes import SPHERE_OF_LIGHTS, hills
 
 from neural_shadows.evaluation.ray_network import network_method
 from neural_shadows.meshes.prepare_mesh import prepare_mesh
@@ -27,20 +26,6 @@ FIELD |= {"corner_bits": 8}
 BRIEF = {"optimiser": "adam", "steps": 150, "batch_size": 8192, "learning_rate": 0.5}
 BRIEF |= {"schedule": "cosine", "loss": {"false_shadow": 1.0}}
 RAYS = 40_000
-
-
-def hills() -> trimesh.Trimesh:
-    """An open height field, whose hills shadow each other."""
-    x, z = (each.ravel() for each in np.meshgrid(*[np.linspace(-1, 1, 41)] * 2))
-    heights = 0.25 * np.sin(5 * x + 1) * np.sin(4 * z)
-    first = np.arange(40 * 41).reshape(40, 41)[:, :-1].ravel()
-    faces = np.concatenate(
-        [
-            np.stack([first, first + 41, first + 1], 1),
-            np.stack([first + 1, first + 41, first + 42], 1),
-        ]
-    )
-    return trimesh.Trimesh(np.stack([x, heights, z], 1), faces, process=False)
 
 
 def write_rays(folder, tracer) -> dict:
