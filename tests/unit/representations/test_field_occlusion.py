@@ -8,11 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
-from shapes import bumpy_sphere, hills, prepared
+from shapes import bumpy_sphere, hills
 
 from neural_shadows import ShadowField
 from neural_shadows.representations.distance_bricks import compiled_occlusion, field_occlusion
-from neural_shadows.representations.distance_bricks.brick_distances import signed_distances
 from neural_shadows.representations.distance_bricks.brick_layout import lay_out
 from neural_shadows.representations.distance_bricks.field_bricks import field_bricks
 from neural_shadows.representations.distance_bricks.field_marching import (
@@ -31,7 +30,6 @@ from neural_shadows.representations.distance_bricks.light_tables import (
     most_bytes,
     point_tables,
 )
-from neural_shadows.representations.voxels.occupancy import surface_cells
 from neural_shadows.running.compiled_c import FLAGS, compiled_c
 
 AXES = ([0, 0, 1], [0, -1, 0], [1, 0, 0], [1, 1e-7, 0], [0, 1, -1], [-1, -1, -1])
@@ -344,27 +342,6 @@ def test_an_empty_field_shadows_nothing(either):
     assert not occluded(around(50), [0, 0, 1], bricks).any()
     assert not occluded_from(around(50), [0, 0, 1], bricks).any()
     assert len(occluded(np.zeros((0, 3), np.float32), [0, 0, 1], bricks)) == 0
-
-
-@pytest.mark.parametrize("corner_bits", [4, 8])
-@pytest.mark.parametrize("shape", [trimesh.creation.icosphere(4, radius=0.6), bumpy_sphere(4)])
-def test_shadows_of_a_mesh(shape, corner_bits):
-    """Points around it, lit or not as by rays through the mesh, but close to its surface."""
-    mesh, tracer = prepared(shape)
-    layout = lay_out(surface_cells(mesh.vertices, mesh.faces, 32), solid=True)
-    values = np.round(60 * signed_distances(mesh, layout, 2.0)).astype(np.int8)[layout.table]
-    bricks = field_bricks(layout.grid, values, 0.0, corner_bits)
-    points = around(20_000, reach=1.5)
-    near = np.abs(np.linalg.norm(points, axis=1) - 0.7) < 0.3
-    for light in ([0.2, 1, -0.4], [0, 0, 1]):
-        to_light = np.tile(unit(light), (len(points), 1)).astype(np.float32)
-        expected = tracer.occluded(points, to_light)
-        assert (occluded(points, unit(light), bricks) != expected)[~near].mean() < 5e-3
-        assert 0.05 < expected.mean() < 0.9
-    for light in ([0.9, 1.1, -0.4], [0.3, 0.2, 5]):
-        expected = tracer.blocked(points, np.float32(light) - points)
-        assert (occluded_from(points, light, bricks) != expected)[~near].mean() < 5e-3
-        assert 0.05 < expected.mean() < 0.9
 
 
 def test_a_lamp_under_a_roof():
