@@ -4,43 +4,17 @@ import re
 
 import numpy as np
 import pytest
-import trimesh
 from checkout import ROOT
-from half_planes import CENTRE, half_plane
-from shapes import scene_of, sheet
+from half_planes import CENTRE, visible
 
 from neural_shadows.rendering import light_shapes
 from neural_shadows.rendering.light_samples import ring_vectors
 from neural_shadows.rendering.light_shape import SPHERE, light_shape
 from neural_shadows.rendering.light_shapes.sun import DISTANCE
-from neural_shadows.rendering.soft_shadows import soft_visibility
-from neural_shadows.rendering.surface import see_surface
-from neural_shadows.scenes.cameras import Camera
 
 PANEL = light_shape({"shape": "rectangle", "aspect": 0.4})
 SUN = light_shape({"shape": "sun"})
 SIZES = [0.1, 0.3]
-
-
-def visible(shape, radii, centre=CENTRE, height=1.0, half=0.3):
-    """Visibility by radius, and x in ±half, of ground points past the edge of a half-plane."""
-    both = trimesh.util.concatenate([sheet(0.0, 30.0), half_plane(height)])
-    scene = scene_of(both, ground=False, light=None)
-    fov = 2 * np.degrees(np.arctan(half / 16 / 0.4))
-    camera = Camera(np.array([0, 0.4, 0.001]), np.zeros(3), np.array([0, 0, -1.0]), fov)
-    images = soft_visibility(
-        scene,
-        camera,
-        256,
-        16,
-        centre=centre,
-        radii=radii,
-        samples=64,
-        shape=shape,
-        adaptive=False,
-    )
-    surface = see_surface(scene, camera, 256, 16)
-    return images, surface.image(surface.p)[..., 0].astype(float)
 
 
 @pytest.mark.parametrize("turned", [False, True])
@@ -49,7 +23,7 @@ def test_half_plane_before_a_rectangle(turned):
     facing = [0.0, -1.0, 0.0] if not turned else [1e-9, -1.0, 0.0]  # the longer side along z
     shape = light_shape({"shape": "rectangle", "aspect": 0.4, "facing": facing})
     radii = [shape.radius_of(size, "metres", 1.0) for size in SIZES]
-    images, x = visible(shape, radii)
+    images, x = visible(radii, shape)
     edge = x * (1 - CENTRE[1])  # seen on the panel's plane, past the half-plane 1 m high
     for size, image in zip(SIZES, images):
         half = 0.4 * size if turned else size
@@ -68,7 +42,7 @@ def test_half_plane_before_a_sun(angle, elevation):
     centre = DISTANCE * size * np.array([0, np.sin(tilt), np.cos(tilt)])
     reach = height / np.sin(tilt) * np.tan(np.radians(angle))  # half of the width
     radius = SUN.radius_of(angle, "degrees", size)
-    (image,), x = visible(SUN, [radius], centre, height, 2 * reach)
+    (image,), x = visible([radius], SUN, centre, height, 2 * reach)
     t = np.clip(-x / reach, -1, 1)
     expected = 1 - (np.arccos(t) - t * np.sqrt(1 - t * t)) / np.pi
     assert np.abs(image - expected).max() < 0.04
@@ -146,7 +120,7 @@ def test_the_shape_of_the_documentation(tmp_path, monkeypatch):
     shape = light_shape({"shape": name})
     radius = shape.radius_of(0.3, "metres", 1.0)
     assert np.pi * radius**2 == pytest.approx(1.5 * 3**0.5 * 0.3**2)
-    (image,), x = visible(shape, [radius])
+    (image,), x = visible([radius], shape)
     assert image.min() < 0.02 and image.max() > 0.98
     # By symmetry half of it is seen from under the edge, which its centre is right above.
     assert image[np.abs(x) < 3e-3].mean() == pytest.approx(0.5, abs=0.02)

@@ -3,36 +3,18 @@
 import numpy as np
 import pytest
 import trimesh
-from half_planes import CENTRE, half_plane, share_seen
-from shapes import Y_UP, scene_of, sheet
+from half_planes import CENTRE, down, half_plane, joined, share_seen, visible
+from shapes import Y_UP, sheet
 
 from neural_shadows.rendering.light_samples import ring_shares, ring_vectors
 from neural_shadows.rendering.soft_shadows import soft_visibility
-from neural_shadows.rendering.surface import see_surface
 from neural_shadows.scenes.cameras import Camera
-
-
-def joined(*shapes):
-    """A scene of several shapes as they lie, in metres."""
-    return scene_of(trimesh.util.concatenate([*shapes]), ground=False, light=None)
-
-
-def down(height, half):
-    """A camera over the origin that sees a square of the ground, twice `half` along a side."""
-    fov = np.degrees(2 * np.arctan(half / height))
-    return Camera(np.array([0, height, 0.001]), np.zeros(3), np.array([0, 0, -1.0]), fov)
 
 
 @pytest.mark.parametrize("height", [0.5, 1.5])
 def test_half_plane_before_a_disc(height):
-    scene = joined(sheet(0.0, 30.0), half_plane(height))
-    # Under the half-plane, so that it sees the ground on both sides of the edge's shadow.
-    camera, radii = down(0.4, 0.3 / 16), [0.1, 0.3]
-    found = soft_visibility(
-        scene, camera, 256, 16, centre=CENTRE, radii=radii, samples=64, adaptive=False
-    )
-    surface = see_surface(scene, camera, 256, 16)
-    x = surface.image(surface.p)[..., 0].astype(float)
+    radii = [0.1, 0.3]
+    found, x = visible(radii, height=height)
     for radius, visibility in zip(radii, found):
         expected = share_seen(x, height, radius)
         assert expected.min() < 0.1 and expected.max() > 0.9
