@@ -1,13 +1,11 @@
 """A small soft viewer, and the scene that it shows as the pipeline sees it."""
 
-import base64
 import shutil
-import zlib
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from viewer_page import TEMPLATE, restored_mesh
+from viewer_page import TEMPLATE, restored_mesh, unpacked
 
 from neural_shadows.frames.buffers import channel_images
 from neural_shadows.frames.soft_frame import SoftFrame
@@ -76,18 +74,11 @@ def _restored(data: dict[str, Any]) -> Scene:
     """The scene of a page's arrays."""
     meshes = []
     for shown in data["objects"]:
-        arrays = MeshArrays(*(_unpacked(shown["mesh"][key]) for key in ("steps", "codes")))
+        arrays = MeshArrays(*(unpacked(shown["mesh"][key]) for key in ("steps", "codes")))
         arrays = arrays._replace(steps=arrays.steps.reshape(3, -1))
         vertices, faces = restored_mesh(arrays)
         meshes.append((np.float32(vertices * shown["half"] + shown["middle"]), faces))
     return make_scene(*all_with_normals(meshes), up=UP, ground=False, light=None)
-
-
-def _unpacked(array: dict[str, str]) -> np.ndarray:
-    planes = np.frombuffer(zlib.decompress(base64.b64decode(array["data"])), np.uint8)
-    dtype = np.dtype(array["kind"])
-    values = np.ascontiguousarray(planes.reshape(dtype.itemsize, -1).T)
-    return values.view(dtype).reshape(-1)
 
 
 def frame_of(page: SoftPage, view: dict[str, Any], size: tuple[int, int]) -> SoftFrame:

@@ -1,5 +1,7 @@
 """A small viewer of untrained networks, and the scene that it shows as the CPU sees it."""
 
+import base64
+import zlib
 from pathlib import Path
 from typing import NamedTuple
 
@@ -85,3 +87,10 @@ def make_viewer(folder: Path, settings=NETWORKS, shape=None, light=SPHERE_OF_LIG
     quantised = make_scene(prepared(restored)[0], up=[0, 1, 0], ground=True, light=light)
     html, png = folder / "viewer.html", folder / "viewer.png"
     return ViewerPage(html, png, quantised, networks, biases)
+
+
+def unpacked(array: dict[str, str]) -> np.ndarray:
+    """An array of a page's data, as the browser reads it."""
+    kind = np.dtype(array["kind"])
+    planes = np.frombuffer(zlib.decompress(base64.b64decode(array["data"])), np.uint8)
+    return np.ascontiguousarray(planes.reshape(kind.itemsize, -1).T).view(kind).ravel()

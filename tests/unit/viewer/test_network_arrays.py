@@ -1,24 +1,15 @@
 """What the shaders are given is what the networks hold; the browser's tests ask them."""
 
-import base64
-import zlib
-
 import numpy as np
 import pytest
 from built_networks import make_network
 from shapes import bumpy_sphere
+from viewer_page import unpacked
 
 from neural_shadows.representations.distance_bricks.distances_around import distances_around
 from neural_shadows.representations.distance_bricks.field_marching import SOLID
 from neural_shadows.representations.shadow_field.grid_codes import SOLID_CODE
 from neural_shadows.viewer.network_arrays import network_arrays
-
-
-def unpacked(array):
-    """As the browser reads it."""
-    kind = np.dtype(array["kind"])
-    planes = np.frombuffer(zlib.decompress(base64.b64decode(array["data"])), np.uint8)
-    return np.ascontiguousarray(planes.reshape(kind.itemsize, -1).T).view(kind).ravel()
 
 
 @pytest.mark.parametrize("width", [64, 18])

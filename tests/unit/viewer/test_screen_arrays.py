@@ -1,14 +1,12 @@
 """The plan of a screen-space network, evaluated step by step, gives the network's visibility."""
 
-import base64
-import zlib
-
 import numpy as np
 import pytest
 import torch
 from built_networks import make_screen_network
 from network_page import smooth_planes, with_random_statistics
 from torch.nn import functional
+from viewer_page import unpacked
 
 from neural_shadows.errors import InputError
 from neural_shadows.networks.screen_space.pixel_kernels import filtered
@@ -32,13 +30,6 @@ NETWORKS = {
     "full, of reduced features": TRIMMED
     | {"form": "full", "extraction": 5, "first_skip": True, "pool": "max"},
 }
-
-
-def unpacked(array):
-    """As the browser reads it."""
-    kind = np.dtype(array["kind"])
-    planes = np.frombuffer(zlib.decompress(base64.b64decode(array["data"])), np.uint8)
-    return np.ascontiguousarray(planes.reshape(kind.itemsize, -1).T).view(kind).ravel()
 
 
 def evaluated(data, planes):
