@@ -96,16 +96,6 @@ def test_a_map_has_the_bias_that_was_found_for_it(files, tmp_path):
     assert errors["shadow_map_64_biased"] > errors["shadow_map_64"] + 0.01
 
 
-def test_null_predictors_err_to_one_side_each(files, tmp_path):
-    shares = {}
-    for method, never in {"no_shadow": "false_shadow", "all_dark": "light_leak"}.items():
-        values, *_ = evaluated(files, tmp_path, method)
-        assert (values[:, :, never] == 0).all()
-        shares[method] = values[:, :, "shadow_error"].to_numpy()
-    lit = [frame.visibility(np.ones(len(frame.p))) for frame, _ in References(files.references)]
-    np.testing.assert_allclose(sum(shares.values()), [points.mean() for points in lit])
-
-
 def test_answers_of_another_version_are_named(files, tmp_path):
     np.savez(tmp_path / "answers.npz", lit=np.ones(3))
     with pytest.raises(InputError, match="answers.npz: damaged"):

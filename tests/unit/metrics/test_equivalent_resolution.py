@@ -1,19 +1,8 @@
 import pytest
-from report_samples import PUBLISHED
 
 from neural_shadows.metrics.equivalent_resolution import equivalent_resolution
-from neural_shadows.metrics.registry import error_of
-from neural_shadows.reports.data.published import read_published
 
 SIZES = (128, 256, 512, 1024, 2048)
-
-
-@pytest.mark.parametrize(("metric", "size"), [("lpips", 386), ("psnr", 191)])
-def test_what_the_thesis_network_is_worth_on_the_dragon(metric, size):
-    printed = read_published(PUBLISHED).loc["4.3"]
-    maps = [error_of(metric, printed[f"shadow_map_{n}", metric]) for n in SIZES]
-    ours = error_of(metric, printed["network", metric])
-    assert round(equivalent_resolution(SIZES, maps, ours)) == size
 
 
 def test_between_maps_and_outside():

@@ -10,7 +10,6 @@ from images import random_image
 
 from neural_shadows.metrics import registry
 from neural_shadows.metrics.metric import Metric, Pixels
-from neural_shadows.running.module_graph import modules_of
 from neural_shadows.settings.kinds import PACKAGE
 
 SHAPE = random_image(0).shape
@@ -82,14 +81,6 @@ def test_texts():
     assert metrics["l1"].text == "L1 in %" and metrics["l1"].heading == "L1 % ↓"
     assert metrics["mse"].score(3.14e-4) == "MSE 3.1 × 10⁻⁴"
     assert metrics["psnr"].score(27.386) == "PSNR 27.39 dB"
-
-
-def test_an_edited_metric_reruns_what_measures_and_shows_it():
-    flip = PACKAGE / registry.FOLDER / "flip.py"
-    for stage in ("evaluation/evaluate.py", "reports/tables/comparison.py", "reports/page/page.py"):
-        assert flip in modules_of(PACKAGE / stage)
-    for stage in ("training/train_on_rays.py", "evaluation/tune.py", "metrics/find_lpips.py"):
-        assert flip not in modules_of(PACKAGE / stage)
 
 
 def test_reading_them_computes_nothing():

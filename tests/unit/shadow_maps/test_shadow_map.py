@@ -58,16 +58,6 @@ def test_bias_is_the_stated_one(cosine, resolution):
         assert lit_by(scene, points, resolution, -0.01).tolist() == [lit]
 
 
-# The first asks for more texels than there are, the second for a hundredth of them.
-@pytest.mark.parametrize("resolution", [64, 700])
-def test_texels_are_found_alike_whether_one_or_all_are_asked_for(bumpy, resolution):
-    square = shadow_map_square(bumpy.objects[0].vertices, unit(1, 1, 0.5))
-    whole = texel_heights(bumpy.tracer, square, resolution, np.arange(resolution**2))
-    texels = np.random.default_rng(0).integers(resolution**2, size=5000)
-    found = looked_up_heights(bumpy.tracer, square, resolution, texels)
-    np.testing.assert_array_equal(found, whole[texels])
-
-
 @pytest.mark.parametrize("light", LIGHTS[1:])
 @pytest.mark.parametrize("resolution", [100, 700])
 def test_a_rasterised_map_is_the_traced_one(bumpy, light, resolution):

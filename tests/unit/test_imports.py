@@ -1,19 +1,11 @@
-"""A room of the package imports only those before it; pyproject.toml has their order."""
+"""What the rules import; tests/workflow/test_style.py has the rooms' order."""
 
 import re
 import subprocess
 import sys
 from pathlib import Path
 
-from importlinter.cli import EXIT_STATUS_SUCCESS, lint_imports
-
 ROOT = Path(__file__).parents[2]
-PROJECT = ROOT / "pyproject.toml"
-
-
-def test_rooms_import_only_those_before_them(capsys):
-    status = lint_imports(str(PROJECT), no_cache=True)
-    assert status == EXIT_STATUS_SUCCESS, capsys.readouterr().out
 
 
 def test_the_graph_waits_for_nothing_that_computes():
