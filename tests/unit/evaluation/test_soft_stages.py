@@ -119,7 +119,7 @@ def test_metrics_of_methods(folder):
     assert flicker["no_shadow"]["instability"] < flicker["hard"]["instability"]
 
 
-def test_a_history_calms_what_few_rays_do(folder):
+def test_new_rays_flicker_and_a_filter_calms_them(folder):
     found = {method: means(evaluate(folder, method)).loc[1] for method in ("rt_1", "rt_1_svgf")}
     noise = {method: one["instability"] for method, one in found.items()}
     assert noise["rt_1"] > 4 * found["rt_1"]["instability_reference"]  # new rays in each frame
