@@ -33,6 +33,13 @@ def test_a_target_that_there_is_not(fresh):
     assert f"InputError: {message} is not among " in said
 
 
+def test_the_name_of_an_entry_and_of_a_rule(fresh):
+    """The viewer's is both: no target, and what may be made again."""
+    message = "viewer: is an entry of `viewers`, not a file. Use reports/smoke/viewer.html"
+    assert message in refused(fresh, "viewer")
+    fresh.run("--dry-run", "reports/smoke/viewer.html", "--forcerun", "viewer")
+
+
 def test_a_mesh_that_cannot_be_read(fresh, tmp_path):
     checkout = fresh.copy(tmp_path / "a checkout")
     ply = trimesh.creation.icosphere(subdivisions=1).export(file_type="ply")

@@ -8,6 +8,7 @@ import shlex
 import sys
 from pathlib import Path
 
+from snakemake.cli import get_argument_parser
 from snakemake.exceptions import WorkflowError
 
 # A graph of 1,000 jobs is millions of objects that stay: to search them for cycles took 6 % of planning.
@@ -66,7 +67,10 @@ try:
         config, [*workflow.configfiles[overlays:], *workflow.configfiles[:overlays]]
     )
     check_files(CONFIG)
-    check_targets(sys.argv[1:], CONFIG, WORKFLOW.parent / "config")
+    # Not in jobs: a cluster's command line names the rules that a job may run, as `viewer`.
+    if workflow.is_main_process:
+        arguments, _ = get_argument_parser().parse_known_args(sys.argv[1:])
+        check_targets(arguments.targets, CONFIG, WORKFLOW.parent / "config")
 except InputError as error:
     raise WorkflowError(str(error))
 

@@ -15,7 +15,7 @@ def check_targets(targets: Iterable[str], config: Sections, folder: Path) -> Non
     """Check that targets are files of the run's scale.
 
     Args:
-        targets: the command line. folder: of the shipped configuration and its overlays.
+        targets: of the command line. folder: of the shipped configuration and its overlays.
 
     Raises:
         InputError: a target is in the folder of another scale, or the name of an entry; or a method
