@@ -114,13 +114,17 @@ def files(layout: Layout, claim: Claim) -> dict[str, list[str]]:
     return {"tables": paths, **screen_networks.files(layout, claim)}
 
 
+def _ratios(claim: Claim) -> list[Ratio]:
+    return [Ratio(**ratio) for ratio in claim["ratios"]]
+
+
 def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
     """A comparison for each ratio.
 
     Numbers of trained networks are not judged with fewer seeds than the claim needs: one of the
     table, and one of each in `again`. Several are tested by Student's t of the ratios' logarithms.
     """
-    return [_comparison(claim, ratio, data) for ratio in claim["ratios"]]
+    return [_comparison(claim, ratio, data) for ratio in _ratios(claim)]
 
 
 def without_networks(claim: Claim, data: Measured) -> dict[str, list[Comparison]]:
@@ -131,7 +135,7 @@ def without_networks(claim: Claim, data: Measured) -> dict[str, list[Comparison]
     """
     if not claim["networks"]:
         return {}
-    return {null: [_of_null(ratio, data, null) for ratio in claim["ratios"]] for null in UNLEARNED}
+    return {null: [_of_null(ratio, data, null) for ratio in _ratios(claim)] for null in UNLEARNED}
 
 
 not_learned = screen_networks.not_learned
@@ -155,19 +159,22 @@ def of_another_size(table: pd.DataFrame, column: str, device: str | None = None)
     return ""
 
 
-def _of_null(ratio: Mapping[str, Any], data: Measured, null: str) -> Comparison:
+def _of_null(ratio: Ratio, data: Measured, null: str) -> Comparison:
     """A null's ratio; supports only strictly within bounds."""
-    value = _null_ratio(data.tables[ratio["table"]], ratio, null)
-    inside = [SIDES[key] * (value - x) > 0 for key, x in setting_types.bounds_of(ratio).items()]
-    fields = {"metric": ratio["column"], "methods": null, "text": null}
+    value = _null_ratio(data.tables[ratio.table], ratio, null)
+    inside = [
+        SIDES[key] * (value - x) > 0
+        for key, x in setting_types.bounds_of(ratio.model_dump()).items()
+    ]
+    fields = {"metric": ratio.column, "methods": null, "text": null}
     return Comparison(**fields, number=f"ratio {value:.3g}", supports=all(inside))
 
 
-def _null_ratio(table: pd.DataFrame, ratio: Mapping[str, Any], null: str) -> float:
+def _null_ratio(table: pd.DataFrame, ratio: Ratio, null: str) -> float:
     """The ratio with a null for networks, NaN without rows."""
-    of, to = ratio["of"], ratio["to"]
-    if ratio.get("null_predictor") is not None:
-        return ratio["null_predictor"] / to
+    of, to = ratio.of, ratio.to
+    if ratio.null_predictor is not None:
+        return ratio.null_predictor / to
     if "null" not in table or to is None:
         return float("nan")
     nulls, rows = table[table["null"] == null], to if isinstance(to, list) else [to]
@@ -182,7 +189,7 @@ def _null_ratio(table: pd.DataFrame, ratio: Mapping[str, Any], null: str) -> flo
         if isinstance(where, dict)
     ]
     both = all(network == networks[0] for network in networks)
-    winner = of if ratio["at_least"] is None or not isinstance(to, dict) else to
+    winner = of if ratio.at_least is None or not isinstance(to, dict) else to
 
     def number(where: Row | float) -> float:
         if isinstance(where, dict) and (both or where is winner):
@@ -194,19 +201,19 @@ def _null_ratio(table: pd.DataFrame, ratio: Mapping[str, Any], null: str) -> flo
         return float(np.divide(number(of), np.mean([number(row) for row in rows])))
 
 
-def _comparison(claim: Claim, ratio: Mapping[str, Any], data: Measured) -> Comparison:
-    names = (ratio["table"], *claim["again"].get(ratio["table"], ()))
+def _comparison(claim: Claim, ratio: Ratio, data: Measured) -> Comparison:
+    names = (ratio.table, *claim["again"].get(ratio.table, ()))
     tables = [learned_rows(data.tables[name]) for name in names]
-    column = f"{ratio['column']} per {ratio['per']}" if ratio["per"] else ratio["column"]
+    column = f"{ratio.column} per {ratio.per}" if ratio.per else ratio.column
     values = np.array([_values(table, ratio) for table in tables])
-    sides = [_name(ratio[key]) for key in ("of", "to")]
+    sides = [_name(side) for side in (ratio.of, ratio.to)]
     means = [f" {value:.4g}" for value in values.mean(axis=0)]
-    if isinstance(ratio["to"], float):
+    if isinstance(ratio.to, float):
         means[1] = ""  # its name is the number
     named = " over ".join(f"{side}{mean}" for side, mean in zip(sides, means))
     fields = {"metric": column, "methods": " over ".join(sides)}
-    fields["text"] = f"{column} of {named} ({ratio['table']})"
-    if reason := of_another_size(tables[0], ratio["column"], needs(claim, "device")):
+    fields["text"] = f"{column} of {named} ({ratio.table})"
+    if reason := of_another_size(tables[0], ratio.column, needs(claim, "device")):
         return Comparison(**fields, incomparable=reason)
     if not np.isfinite(values).all():
         return Comparison(**fields, untested=f"no {column} of one of them")
@@ -216,7 +223,7 @@ def _comparison(claim: Claim, ratio: Mapping[str, Any], data: Measured) -> Compa
     ):
         return Comparison(**fields, untested=WITHOUT_TRUNK)
     ratios, needed = values[:, 0] / values[:, 1], needs(claim, "seeds") or 1
-    bounds, ends = setting_types.bounds_of(ratio), _ends(tables, ratio)
+    bounds, ends = setting_types.bounds_of(ratio.model_dump()), _ends(tables, ratio)
     bounds_text = f" ({setting_types.in_words(bounds)})"
     if networks and len(tables) < needed:
         fields |= {"number": _number(ratios), "remark": bounds_text}
@@ -227,20 +234,20 @@ def _comparison(claim: Claim, ratio: Mapping[str, Any], data: Measured) -> Compa
     return Comparison(**fields, remark=bounds_text, **_judged(ratios, ends, bounds))
 
 
-def _values(table: pd.DataFrame, ratio: Mapping[str, Any]) -> list[float]:
-    value, to = _number_in(table, ratio, ratio["of"]), ratio["to"]
+def _values(table: pd.DataFrame, ratio: Ratio) -> list[float]:
+    value, to = _number_in(table, ratio, ratio.of), ratio.to
     if to is None:
-        return [value, table[ratio["column"]].sum() - value]
+        return [value, table[ratio.column].sum() - value]
     rows = to if isinstance(to, list) else [to]
     return [value, float(np.mean([_number_in(table, ratio, row) for row in rows]))]
 
 
-def _number_in(table: pd.DataFrame, ratio: Mapping[str, Any], where: Row | float) -> float:
+def _number_in(table: pd.DataFrame, ratio: Ratio, where: Row | float) -> float:
     """A row's number, divided by `per`; a given one."""
     if isinstance(where, float):
         return where
-    value = _cell(table, ratio["column"], where)
-    return value / _cell(table, ratio["per"], where) if ratio["per"] else value
+    value = _cell(table, ratio.column, where)
+    return value / _cell(table, ratio.per, where) if ratio.per else value
 
 
 def _cell(table: pd.DataFrame, column: str, where: Row) -> float:
@@ -252,13 +259,13 @@ def _cell(table: pd.DataFrame, column: str, where: Row) -> float:
     return float(numbers.iloc[0]) if len(numbers) == 1 else float("nan")
 
 
-def _ends(tables: Sequence[pd.DataFrame], ratio: Mapping[str, Any]) -> np.ndarray | None:
+def _ends(tables: Sequence[pd.DataFrame], ratio: Ratio) -> np.ndarray | None:
     """Ends of a number's own interval over a given number."""
-    columns = [f"{ratio['column']}_{end}" for end in ("low", "high")]
-    alone = len(tables) == 1 and isinstance(ratio["to"], float) and not ratio["per"]
+    columns = [f"{ratio.column}_{end}" for end in ("low", "high")]
+    alone = len(tables) == 1 and isinstance(ratio.to, float) and not ratio.per
     if not alone or any(column not in tables[0] for column in columns):
         return None
-    return np.array([_cell(tables[0], column, ratio["of"]) for column in columns]) / ratio["to"]
+    return np.array([_cell(tables[0], column, ratio.of) for column in columns]) / ratio.to
 
 
 def _number(ratios: np.ndarray) -> str:
