@@ -62,7 +62,7 @@ def _mark_touched(vertices, faces, slack, touched):
                         touched[x, y, z] = touches(corners, cx, cy, cz, half)
 
 
-# Below rows are filled by loops: as slices and with np.cross the file took 3.6 s to compile.
+# Below rows are filled by loops: as slices and with np.cross the file took 3.1 s to compile, not 1.0.
 @njit(cache=True, nogil=True)
 def take_corners(vertices, face, corners, low, high):
     """Fill in a triangle's corners (3, 3) and the ends of its bounding box (3,)."""
