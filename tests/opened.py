@@ -31,12 +31,11 @@ def evaluate_frames(
     sequences: Sequence[Path] = (),
     meshes: Sequence[Path] = (),
     weights: Sequence[Path] = (),
-    answers: Path | None = None,
     constants: Path | None = None,
     **settings,
 ) -> None:
     """Call `evaluate`; `outputs` are metrics and visibilities."""
-    inputs = [*frames], [*sequences], [*meshes], [*weights], answers, constants, lpips_json
+    inputs = [*frames], [*sequences], [*meshes], [*weights], constants, lpips_json
     evaluate(*inputs, *outputs, **settings)
 
 

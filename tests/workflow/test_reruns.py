@@ -7,8 +7,7 @@ from checkout import SMOKE, Checkout, write_overlay
 
 # What shows the networks' pictures, and all that is made of a network.
 SHOWN = {"table", "figure", "claims", "page", "manifest"}
-ANSWERED = SHOWN | {"query_network", "evaluate"}
-TRAINED = ANSWERED | {"tune", "time_methods"}
+TRAINED = SHOWN | {"evaluate", "count_violations", "tune", "time_methods"}
 MAPPED = SHOWN | {"tune", "evaluate", "time_methods"}  # of the methods by maps
 
 
@@ -42,7 +41,7 @@ def pending_after(checkout: Checkout, *modules: str) -> dict[str, str]:
             SHOWN | {"preview_scene"},
         ),
         (["evaluation/evaluate.py", "metrics/kinds/flip.py"], SHOWN | {"evaluate"}),
-        (["evaluation/query_network.py"], ANSWERED),
+        (["evaluation/count_violations.py"], {"count_violations", "claims", "page", "manifest"}),
         (["shadow_maps/shadow_map.py"], MAPPED),
         (["training/training_run.py"], TRAINED | {"train", "viewer"}),
     ],
@@ -65,7 +64,6 @@ def test_edited_kinds(edited):
     pending = pending_after(edited, *kinds.values())
     for rule, expected in {
         "train": {"hash_grid", "kpnsm"},
-        "query_network": {"hash_grid"},
         "evaluate": {*kinds},
         "tune": {"/all/pcss."},
     }.items():
@@ -79,7 +77,7 @@ def test_edited_kinds(edited):
     ("edit", "rules"),
     [
         ({"tables": {"table_4_3": {"title": "Another title"}}}, {"table", "page", "manifest"}),
-        ({"experiments": {"dragon": {"bias": 0.01}}}, ANSWERED),
+        ({"experiments": {"dragon": {"bias": 0.01}}}, SHOWN | {"evaluate", "count_violations"}),
         ({"experiments": {"dragon": {"label": "Another"}}}, SHOWN),
         ({"trainings": {"base": {"learning_rate": 0.002}}}, TRAINED | {"train"}),
     ],

@@ -81,38 +81,6 @@ rule tune:
         "../neural_shadows/evaluation/tune.py"
 
 
-rule query_network:
-    input:
-        references=PATHS.reference(),
-        weights=of(LAYOUT.weights),
-        constants_json=of(LAYOUT.bias_file),
-        mesh_ply=PATHS.scene("mesh.ply"),
-    output:
-        answers=PATHS.answers(),
-    log:
-        PATHS.log("query_network", "scene", "method", "batch"),
-    benchmark:
-        PATHS.benchmark("query_network", "scene", "method", "batch")
-    conda:
-        ENVIRONMENT
-    resources:
-        **usual(4000, minutes=60),
-        gpu=lambda wildcards: GPUS * LAYOUT.can_use_gpu(wildcards.method),
-    params:
-        code=lambda wildcards: code(
-            "evaluation/query_network",
-            LAYOUT.network_modules([unbiased(wildcards.method)]),
-        ),
-        bias=of(LAYOUT.bias),
-        violations=of(claims.counts_violations),
-        device=COMPUTE["device"],
-        precision=COMPUTE["precision"],
-    message:
-        "Querying {wildcards.method} on {wildcards.scene}, batch {wildcards.batch}"
-    script:
-        "../neural_shadows/evaluation/query_network.py"
-
-
 rule evaluate:
     input:
         unpack(of(evaluations.evaluated_files)),
@@ -129,6 +97,8 @@ rule evaluate:
         ENVIRONMENT
     resources:
         **usual(4000, minutes=120),
+        gpu=lambda wildcards: GPUS
+        * evaluations.can_use_gpu(LAYOUT, wildcards.frame_set, wildcards.method),
     params:
         code=lambda wildcards: code(
             "evaluation/evaluate",
@@ -141,6 +111,37 @@ rule evaluate:
         "Evaluating {wildcards.method} on {wildcards.frame_set}, {wildcards.group}"
     script:
         "../neural_shadows/evaluation/evaluate.py"
+
+
+rule count_violations:
+    input:
+        references=PATHS.reference(),
+        weights=of(LAYOUT.weights),
+        constants_json=of(LAYOUT.bias_file),
+        mesh_ply=PATHS.scene("mesh.ply"),
+    output:
+        violations_csv=PATHS.violations(),
+    log:
+        PATHS.log("count_violations", "scene", "method", "batch"),
+    benchmark:
+        PATHS.benchmark("count_violations", "scene", "method", "batch")
+    conda:
+        ENVIRONMENT
+    resources:
+        **usual(4000, minutes=60),
+        gpu=lambda wildcards: GPUS * LAYOUT.can_use_gpu(wildcards.method),
+    params:
+        code=lambda wildcards: code(
+            "evaluation/count_violations",
+            LAYOUT.network_modules([unbiased(wildcards.method)]),
+        ),
+        bias=of(LAYOUT.fixed_bias),
+        device=COMPUTE["device"],
+        precision=COMPUTE["precision"],
+    message:
+        "Counting the violations of {wildcards.method} on {wildcards.scene}, batch {wildcards.batch}"
+    script:
+        "../neural_shadows/evaluation/count_violations.py"
 
 
 rule time_methods:

@@ -6,11 +6,9 @@ from opened import evaluate_frames, write_constants
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.answers import read_view
 from neural_shadows.evaluation.metric_files import read_view_metrics
-from neural_shadows.evaluation.query_network import query_network
 from neural_shadows.evaluation.ray_network import network_method, open_network
 from neural_shadows.evaluation.references import References
 from neural_shadows.evaluation.registry import classic_method
-from neural_shadows.evaluation.violations import Violations
 from neural_shadows.metrics.kinds.psnr import psnr
 from neural_shadows.rendering.shading import shade
 from neural_shadows.scenes.scene import open_scene
@@ -21,13 +19,12 @@ def files(tmp_path_factory):
     return make_evaluated(tmp_path_factory.mktemp("evaluated"))
 
 
-def evaluated(files, folder, method, answers=None, constants_json=None):
+def evaluated(files, folder, method, constants_json=None, weights=None, **settings):
     """Metrics by view set, view and metric; and the paths of metrics and visibilities."""
     outputs = folder / f"{method}.csv", folder / f"{method}.npz"
-    files_of = {"answers": answers, "meshes": [] if answers else [files.mesh_ply]}
-    files_of["constants"] = constants_json
-    frames = [files.references], files.lpips_json, outputs
-    evaluate_frames(*frames, **files_of, method=method, scene=SCENE)
+    source = {"weights": [weights]} if weights else {"meshes": [files.mesh_ply]}
+    settings |= source | {"constants": constants_json, "scene": SCENE}
+    evaluate_frames([files.references], files.lpips_json, outputs, method=method, **settings)
     metrics = read_view_metrics(outputs[:1])
     return metrics.set_index(["view_set", "view", "metric"])["value"], *outputs
 
@@ -60,28 +57,16 @@ def test_every_frame_can_be_drawn_again(files, tmp_path, method):
 
 def test_a_network_is_asked_with_its_bias(files, tmp_path):
     write_constants(tmp_path / "net.json", depth_bias=0.3, push=0.0)
-    answers = tmp_path / "answers.npz"
-    queried = {"mesh_ply": files.mesh_ply, "answers": answers, "method": "net", "device": "cpu"}
+    asked = {"weights": files.weights, "device": "cpu"}
     answer = network_method(*open_network(files.weights, "cpu", 1))
     batch = list(References(files.references))
     errors = {}
     for bias in (0.0, 0.3):
-        counted = bias > 0
-        given = {"bias": bias, "violations": counted}
-        query_network(files.references, files.weights, None, **queried, **given)
-        values, *_ = evaluated(files, tmp_path, "net", answers)
+        values, *_ = evaluated(files, tmp_path, "net", **asked, bias=bias)
         errors[bias] = values[:, :, "shadow_error"].tolist()
         wrong = [np.mean(answer(frame)(bias) != truth) for frame, truth in batch]
         assert errors[bias] == pytest.approx(wrong)
-        metrics = set(values.index.get_level_values("metric"))
-        assert metrics.isdisjoint(Violations._fields) or counted
-    for name in Violations._fields:
-        assert (values[:, :, name] >= 0).all()
-    assert values["surface", 0, "queries"] > 0
-    query_network(
-        files.references, files.weights, tmp_path / "net.json", **queried, bias="held_out"
-    )
-    values, *_ = evaluated(files, tmp_path, "net", answers)
+    values, *_ = evaluated(files, tmp_path, "net", tmp_path / "net.json", **asked)
     assert errors[0.0] != errors[0.3] == values[:, :, "shadow_error"].tolist()
 
 
@@ -90,7 +75,7 @@ def test_a_map_has_the_bias_that_was_found_for_it(files, tmp_path):
     errors = {}
     for method, file in {"shadow_map_64": None, "shadow_map_64_biased": "map.json"}.items():
         bias_json = file and tmp_path / file
-        values, metrics_csv, _ = evaluated(files, tmp_path, method, None, bias_json)
+        values, metrics_csv, _ = evaluated(files, tmp_path, method, bias_json)
         errors[method] = values["surface", 0, "false_shadow"]
         assert set(read_view_metrics([metrics_csv])["method"]) == {method}
     assert errors["shadow_map_64_biased"] > errors["shadow_map_64"] + 0.01
@@ -98,5 +83,6 @@ def test_a_map_has_the_bias_that_was_found_for_it(files, tmp_path):
 
 def test_answers_of_another_version_are_named(files, tmp_path):
     np.savez(tmp_path / "answers.npz", lit=np.ones(3))
+    frame, _ = References(files.references)[0]
     with pytest.raises(InputError, match="answers.npz: damaged"):
-        evaluated(files, tmp_path, "net", tmp_path / "answers.npz")
+        read_view(tmp_path / "answers.npz", 0, frame)

@@ -6,11 +6,12 @@ import torch
 import trimesh
 from evaluated import make_evaluated
 
-from neural_shadows.evaluation import query_network as stage
-from neural_shadows.evaluation.answers import read_counts, read_view
-from neural_shadows.evaluation.query_network import query_network
+from neural_shadows.evaluation import count_violations as stage
+from neural_shadows.evaluation.count_violations import count_violations
+from neural_shadows.evaluation.metric_files import read_metrics
+from neural_shadows.evaluation.ray_network import network_method
 from neural_shadows.evaluation.references import References
-from neural_shadows.evaluation.violations import Violations, count_violations
+from neural_shadows.evaluation.violations import Violations, compare_depths
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 
 BALL = 0.5
@@ -23,7 +24,7 @@ def test_counts():
     t = np.float32([0.49995, 0.4, 0.3, 1.5, 1.1, 1.0])
     lit = np.array([False, False, False, True, True, True])
     truth = np.float32([1, 1, 0, 0, 1, 1])
-    assert count_violations(t, t_lb, t_ub, lit, truth) == Violations(6, 3, 2, 1, 2, 1, 1)
+    assert compare_depths(t, t_lb, t_ub, lit, truth) == Violations(6, 3, 2, 1, 2, 1, 1)
 
 
 class Ball(ShadowNetwork):
@@ -49,12 +50,15 @@ def test_a_ball_that_is_short_or_far_breaks_the_bound_on_that_side(
 ):
     ball = trimesh.creation.icosphere(5, radius=BALL)
     files = make_evaluated(tmp_path, ball)
-    monkeypatch.setattr(stage, "open_network", lambda *_: (Ball(share), torch.float32))
-    path, asked = tmp_path / "answers.npz", {"method": "ball", "violations": True}
-    query_network(files.references, tmp_path / "w", None, files.mesh_ply, path, **asked)
-    counts, shown_anywhere = read_counts(path), np.zeros(2)
-    for number, (frame, truth) in enumerate(References(files.references)):
-        found, visibility = Violations(*counts[number]), read_view(path, number, frame)
+    network = Ball(share), torch.float32
+    monkeypatch.setattr(stage, "open_network", lambda *_: network)
+    path = tmp_path / "violations.csv"
+    count_violations(files.references, tmp_path / "w", None, files.mesh_ply, path, method="ball")
+    counts = read_metrics([path]).set_index(["part", "frame", "metric"])["value"]
+    answer, shown_anywhere = network_method(*network), np.zeros(2)
+    for frame, truth in References(files.references):
+        view = counts.loc[frame.view.view_set, frame.view.index]
+        found, visibility = Violations(**view), answer(frame)(0.0)
         # The line of a point meets the ball if it passes its centre within the radius.
         light = frame.view.light
         across = np.linalg.norm(frame.p - np.outer(frame.p @ light, light), axis=1)

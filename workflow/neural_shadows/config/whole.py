@@ -23,7 +23,7 @@ Claim = union("reports/claims/kinds")
 
 # Folders of the default scale, with which an overlay's folder of this name would collide.
 RESERVED_SCALES = {
-    *("scenes", "rays", "networks", "references", "answers", "evaluations", "constants"),
+    *("scenes", "rays", "networks", "references", "violations", "evaluations", "constants"),
     *("times", "logs", "benchmarks", "reference"),
     *("frames", "imported_frames", "frame_measures"),
     *("screen_profiles", "screen_sensitivities", "soft_fields"),

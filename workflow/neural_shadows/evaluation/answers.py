@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from neural_shadows.rendering.gbuffer import GBuffer
 
 STEPS = 255
-COUNTS = "counts"
 
 
 def name_of(part: Path, radius: int) -> str:
@@ -34,17 +33,9 @@ def flicker_name(part: Path, exact: bool = False) -> str:
     return f"{part.parent.name}.{part.stem}.flicker{'_exact' * exact}"
 
 
-def write_answers(
-    path: Path, answers: Mapping[str, np.ndarray], counts: np.ndarray | None = None
-) -> None:
-    """Write visibilities in [0, 1] by name.
-
-    Args:
-        counts: of violations, (frames, 7) int64, a row of `Violations` for each view.
-    """
+def write_answers(path: Path, answers: Mapping[str, np.ndarray]) -> None:
+    """Write visibilities in [0, 1] by name."""
     steps = {name: np.round(STEPS * shares).astype(np.uint8) for name, shares in answers.items()}
-    if counts is not None:
-        steps[COUNTS] = counts
     with whole_file(path) as part:
         np.savez_compressed(part, **steps)
 
@@ -55,7 +46,11 @@ def read_answer(path: Path, name: str) -> np.ndarray:
     Raises:
         InputError: the file is missing, damaged, or has no such name.
     """
-    return _read(path, name) / np.float32(STEPS)
+    try:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
+            return arrays[name] / np.float32(STEPS)
+    except Exception as error:  # zipfile and zlib raise many kinds
+        raise InputError(f"{path}: damaged ({error}). Delete it and run again.") from error
 
 
 def read_view(path: Path, number: int, frame: "GBuffer") -> np.ndarray:
@@ -68,20 +63,3 @@ def read_view(path: Path, number: int, frame: "GBuffer") -> np.ndarray:
     if answer.shape != frame.lit_side.shape:
         raise InputError(f"{path}: damaged (of another view). Delete it and run again.")
     return frame.visibility(answer)
-
-
-def read_counts(path: Path) -> np.ndarray | None:
-    """Counts of `write_answers`; None without.
-
-    Raises:
-        InputError: the file is missing or damaged.
-    """
-    return _read(path, COUNTS, optional=True)
-
-
-def _read(path: Path, name: str, optional: bool = False) -> np.ndarray | None:
-    try:
-        with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
-            return None if optional and name not in arrays else arrays[name]
-    except Exception as error:  # zipfile and zlib raise many kinds
-        raise InputError(f"{path}: damaged ({error}). Delete it and run again.") from error

@@ -27,7 +27,6 @@ def evaluate(
     sequences: list[Path],
     meshes: list[Path],
     weights: list[Path],
-    answers: Path | None,
     constants_json: Path | None,
     lpips_json: Path,
     metrics_csv: Path,
@@ -37,6 +36,8 @@ def evaluate(
     fields: list[Path] = (),
     method: str,
     scene: SceneSettings | None = None,
+    bias: float = 0.0,
+    device: str = "auto",
     precision: str = "auto",
     by_scene: bool = False,
     threads: int = 1,
@@ -46,22 +47,24 @@ def evaluate(
     Writes metrics, see `write_metrics`, and visibilities, see `write_answers`.
 
     Args:
-        frames: test frames. sequences, meshes, weights, fields, occluders, scene, precision,
-            by_scene: see `Inputs`.
-        answers: of `query_network`, for a network on views, in place of weights and meshes.
+        frames: test frames. sequences, meshes, weights, fields, occluders, scene, device,
+            precision, by_scene: see `Inputs`.
         constants_json: of `tune`; None for a method without constants.
+        bias: depth bias of a network on views without constants, in sphere radii.
         lpips_json: of `find_lpips`, its model beside it; LPIPS is left out where it is not available.
         method: the method's key.
 
     Raises:
         InputError: an input file cannot be read.
     """
-    settings = {"scene": scene, "precision": precision, "threads": threads, "by_scene": by_scene}
-    beside = {"answers": answers, "fields": fields, "occluders": occluders}
-    inputs = Inputs(frames, meshes, weights, sequences, **beside, **settings)
+    compute = {"device": device, "precision": precision, "threads": threads}
+    beside = {"fields": fields, "occluders": occluders, "scene": scene, "by_scene": by_scene}
+    inputs = Inputs(frames, meshes, weights, sequences, **beside, **compute)
     kind, measures = (module_of(names, are_views(frames)) for names in (KIND, METRICS))
     method_of = kind.open_methods(method, inputs)
     constants = constants_of(constants_json, kind.count_radii(frames[0]))
+    if bias:
+        constants = [{"depth_bias": bias}]
     images = image_metrics(measures.LIGHT, lpips_json, threads)
 
     rows: list[dict[str, Any]] = []

@@ -33,7 +33,6 @@ class Inputs:
         meshes: prepared: of the scene in its sphere, or of all inserted objects, in folders of their
             names.
         weights: of a network, or of one for each scene.
-        answers: of `query_network`.
         fields: of `fit_fields`, for a method that needs them.
         occluders: of `measure_frames`, over all test frames; None for no errors by occluder.
         scene: `up`, `ground` and `light` of a scene in its sphere, see `open_scene`.
@@ -45,7 +44,6 @@ class Inputs:
     meshes: Sequence[Path] = ()
     weights: Sequence[Path] = ()
     sequences: Sequence[Path] = ()
-    answers: Path | None = None
     fields: Sequence[Path] = ()
     occluders: Path | None = None
     scene: SceneSettings | None = None

@@ -34,7 +34,7 @@ def ray_method(weights: Path, device: str, threads: int, precision: str) -> Meth
     network, dtype = open_network(weights, device, threads, precision)
     method = network_method(network, dtype)
 
-    def sun(frame: GBuffer, scene: None, *, push: float) -> OfBias:
+    def sun(frame: GBuffer, scene: None, *, push: float = network.push) -> OfBias:
         network.push = push
         return method(frame)
 

@@ -11,11 +11,10 @@ LIGHT = "hard"
 
 
 def metrics(view: View, visibility: np.ndarray, radius: int, images: OfImages) -> dict[str, float]:
-    """Image metrics, errors of visibility, counts of violations."""
+    """Image metrics and errors of visibility."""
     image, reference = shade(view.frame, visibility), shade(view.frame, view.reference)
     pixels = Pixels(np.ones(len(view.reference), bool))
     return {
         **images(image, reference),
         **measure("of_visibility", LIGHT, visibility, view.reference, pixels),
-        **(view.counts or {}),
     }

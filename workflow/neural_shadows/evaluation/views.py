@@ -1,18 +1,16 @@
 """Views of a scene under a sun, with references [4.1]."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
 from pathlib import Path
 
 import numpy as np
 
-from neural_shadows.evaluation.answers import read_counts, read_view
 from neural_shadows.evaluation.frame import Inputs
 from neural_shadows.evaluation.method import BIASES, Constants, Method, OfBias
 from neural_shadows.evaluation.references import References
 from neural_shadows.evaluation.registry import is_network, method_of, unbiased
-from neural_shadows.evaluation.violations import Violations
 from neural_shadows.metrics.kinds.errors_of_visibility import shadow_error
 from neural_shadows.rendering.gbuffer import GBuffer
 from neural_shadows.scenes.scene import Scene, open_scene
@@ -27,8 +25,7 @@ class View:
     n of its points are of a surface, m of them on the lit side.
 
     Args:
-        reference: visibility (n,). scene: None for a network. answers: see `Inputs`.
-        counts: of the network's violations, if counted.
+        reference: visibility (n,). scene: None for a network.
     """
 
     path: Path
@@ -36,8 +33,6 @@ class View:
     frame: GBuffer
     reference: np.ndarray
     scene: Scene | None
-    answers: Path | None = None
-    counts: Mapping[str, int] | None = None
 
     @property
     def scene_name(self) -> str:
@@ -46,9 +41,6 @@ class View:
 
     def visibilities(self, method: Method, constants: Sequence[Constants]) -> Iterator[np.ndarray]:
         """The method's visibility (n,), once."""
-        if self.answers:
-            yield read_view(self.answers, self.number, self.frame)
-            return
         (chosen,) = constants
         yield self._of_bias(method, chosen)(chosen.get("depth_bias", 0.0))
 
@@ -101,11 +93,9 @@ def open_frames(inputs: Inputs) -> Iterator[View]:
         InputError: a file cannot be read.
     """
     scene = open_scene(*inputs.meshes, **inputs.scene) if inputs.meshes else None
-    counts = read_counts(inputs.answers) if inputs.answers else None
     for path in inputs.frames:
         for number, (frame, reference) in enumerate(References(path)):
-            row = None if counts is None else Violations(*counts[number].tolist())._asdict()
-            yield View(path, number, frame, reference, scene, inputs.answers, row)
+            yield View(path, number, frame, reference, scene)
 
 
 def open_methods(key: str, inputs: Inputs) -> Callable[[str], Method | None]:
@@ -117,8 +107,6 @@ def open_methods(key: str, inputs: Inputs) -> Callable[[str], Method | None]:
     name = unbiased(key)
     if not is_network(name):
         method = replace(method_of(name), constants={"depth_bias": BIASES}, joint=True)
-    elif inputs.answers:
-        method = Method()
     else:
         from neural_shadows.evaluation.ray_network import ray_method
 

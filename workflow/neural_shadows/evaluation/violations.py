@@ -25,7 +25,7 @@ class Violations(NamedTuple):
     light_leak_of_upper: int  # of those, points wrongly lit
 
 
-def count_violations(
+def compare_depths(
     t: np.ndarray, t_lb: np.ndarray, t_ub: np.ndarray, lit: np.ndarray, truth: np.ndarray
 ) -> Violations:
     """Compare depths t (k,) with bounds of the same rays.

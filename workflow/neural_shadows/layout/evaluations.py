@@ -55,21 +55,18 @@ def evaluated_files(layout: Layout, frame_set: str, group: str, method: str) -> 
     groups = (f"{scene}.{part}" for scene in layout.mesh_scenes for part in parts)
     if _are_views(layout, frame_set, group, groups):
         scene, batch = group.split(".")
-        networks = is_network(method)
         return {
             "frames": [layout.paths.reference(scene, batch)],
             "sequences": [],
-            "meshes": [layout.paths.scene("mesh.ply", scene)] * (not networks),
-            "weights": [],
-            "answers": [layout.paths.answers(scene, method, batch)] * networks,
-            "constants_json": [] if networks else layout.bias_file(scene, method),
+            "meshes": [layout.paths.scene("mesh.ply", scene)] * (not is_network(method)),
+            "weights": layout.weights(method),
+            "constants_json": layout.bias_file(scene, method),
         }
     return {
         "frames": frame_sets.tests(layout, frame_set),
         "sequences": frame_sets.sequences(layout, frame_set),
         "meshes": frame_sets.all_meshes(layout, frame_set),
         "weights": frame_methods.weights(layout, method),
-        "answers": [],
         "constants_json": frame_methods.chosen(layout, frame_set, method),
         "occluders": frame_methods.occluders(layout, frame_set, method),
         "fields": frame_methods.fields(layout, frame_set, method),
@@ -80,7 +77,8 @@ def evaluated_files(layout: Layout, frame_set: str, group: str, method: str) -> 
 def evaluated_settings(layout: Layout, frame_set: str, group: str, method: str) -> dict[str, Any]:
     """Settings of `evaluate`."""
     if frame_set == VIEWS:
-        return {"scene": layout.mesh_scene(group.split(".")[0])["scene"]}
+        bias = {"bias": layout.fixed_bias(method)}
+        return _view_settings(layout, group.split(".")[0]) | bias
     return {
         "precision": frame_methods.precision(layout, method),
         "by_scene": frame_methods.by_scene(layout, method),
@@ -168,9 +166,7 @@ def modules(layout: Layout, stage: str, frame_set: str, methods: Iterable[str]) 
     imported = {frame.module_file(names[not views]) for names in IMPORTED[stage]}
     imported |= method_modules(methods)
     if views:
-        # Predictions of networks are an input of `evaluate`.
-        trained = [] if stage == "evaluate" else filter(is_network, methods)
-        return imported | layout.network_modules(map(unbiased, trained))
+        return imported | layout.network_modules(map(unbiased, filter(is_network, methods)))
     networks = frame_methods.network_modules(layout, methods)
     imported |= {frame.module_file("screen_network_method") for _ in networks}
     return imported | networks | frame_sets.modules(layout, frame_set)

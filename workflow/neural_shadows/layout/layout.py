@@ -162,15 +162,20 @@ class Layout:
         first, last = view_range(self.views, batch)
         return {"first": first, "last": last}
 
-    def bias(self, method: str) -> float | str | None:
+    def _bias(self, method: str) -> float | str | None:
         """A method's depth bias: a number, `held_out`, or None."""
         if method != unbiased(method):
             return HELD_OUT
         return None if is_classic(method) else self.on_rays(method)["bias"]
 
+    def fixed_bias(self, method: str) -> float:
+        """A method's depth bias in the configuration; 0 without."""
+        bias = self._bias(method)
+        return 0.0 if bias in (None, HELD_OUT) else bias
+
     def bias_file(self, scene: str, method: str) -> list[str]:
         """File of a method's depth bias, if held out."""
-        held_out = self.bias(method) == HELD_OUT
+        held_out = self._bias(method) == HELD_OUT
         return [self.paths.constants(VIEWS, unbiased(method), scene)] * held_out
 
     def weights(self, method: str) -> list[str]:

@@ -68,11 +68,11 @@ class Paths:
         """`widths.json`, `occluders.npy` of all test frames."""
         return f"{self.results}/frame_measures/{frame_set}/{measure}"
 
-    def answers(
+    def violations(
         self, scene: str = "{scene}", method: str = "{method}", batch: str = "{batch}"
     ) -> str:
-        """Predictions of a network for a batch."""
-        return f"{self.results}/answers/{scene}/{method}.{batch}.npz"
+        """Counts of labels' bounds that a network violates in a batch."""
+        return f"{self.results}/violations/{scene}/{method}.{batch}.csv"
 
     def frames(
         self,

@@ -61,33 +61,43 @@ def _interpolated(values: np.ndarray, count: int) -> np.ndarray:
     return ndimage.map_coordinates(values, grid, order=3, mode="nearest")
 
 
-@njit(cache=True, nogil=True)
-def _erode(heights, steps, cut):
+def _erode(heights: np.ndarray, steps: int, cut: float) -> None:
     """Let land rise within its rim, and rivers cut it; in place."""
-    n = len(heights)
-    flat = heights.ravel()
-    to, far = np.empty(n * n, np.int64), np.empty(n * n)
     for _ in range(steps):
         heights[1:-1, 1:-1] += 1
-        for i in range(n):
-            for j in range(n):
-                at = i * n + j
-                to[at], far[at], steepest = at, 1.0, 0.0
-                for x in range(max(i - 1, 0), min(i + 2, n)):
-                    for y in range(max(j - 1, 0), min(j + 2, n)):
-                        away = np.sqrt(float((x - i) ** 2 + (y - j) ** 2))
-                        if away > 0 and (heights[i, j] - heights[x, y]) / away > steepest:
-                            steepest = (heights[i, j] - heights[x, y]) / away
-                            to[at], far[at] = x * n + y, away
-        order = np.argsort(flat)
-        area = np.ones(n * n)
-        for at in order[::-1]:
-            if to[at] != at:
-                area[to[at]] += area[at]
-        for at in order:
-            if to[at] != at:
-                share = cut * np.sqrt(area[at]) / far[at]
-                flat[at] = (flat[at] + share * flat[to[at]]) / (1 + share)
+        # Sorted here: compiled by Numba, a sort takes four seconds before its first use.
+        _cut(heights.ravel(), *_steepest(heights), np.argsort(heights, axis=None), cut)
+
+
+@njit(cache=True, nogil=True)
+def _steepest(heights):
+    """Each cell's neighbour of steepest descent, or itself, and its distance: (n²,)."""
+    n = len(heights)
+    to, far = np.empty(n * n, np.int64), np.empty(n * n)
+    for i in range(n):
+        for j in range(n):
+            at = i * n + j
+            to[at], far[at], steepest = at, 1.0, 0.0
+            for x in range(max(i - 1, 0), min(i + 2, n)):
+                for y in range(max(j - 1, 0), min(j + 2, n)):
+                    away = np.sqrt(float((x - i) ** 2 + (y - j) ** 2))
+                    if away > 0 and (heights[i, j] - heights[x, y]) / away > steepest:
+                        steepest = (heights[i, j] - heights[x, y]) / away
+                        to[at], far[at] = x * n + y, away
+    return to, far
+
+
+@njit(cache=True, nogil=True)
+def _cut(flat, to, far, order, cut):
+    """Lower cells, from the lowest up, by the water that flows to their neighbours; in place."""
+    area = np.ones(len(flat))
+    for at in order[::-1]:
+        if to[at] != at:
+            area[to[at]] += area[at]
+    for at in order:
+        if to[at] != at:
+            share = cut * np.sqrt(area[at]) / far[at]
+            flat[at] = (flat[at] + share * flat[to[at]]) / (1 + share)
 
 
 def _boulders(rng: np.random.Generator, side: np.ndarray) -> np.ndarray:

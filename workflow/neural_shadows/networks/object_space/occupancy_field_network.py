@@ -282,12 +282,10 @@ class OccupancyFieldNetwork(ShadowNetwork):
         )
         return torch.from_numpy(t_pred)
 
-    def points_lit(
-        self, p: Tensor, light: Tensor, dtype: torch.dtype, t_pred: Tensor | None = None
-    ) -> Callable[[float], Tensor]:
+    def points_lit(self, p: Tensor, light: Tensor, dtype: torch.dtype) -> Callable[[float], Tensor]:
         """See `ShadowNetwork.points_lit`; on a CPU by `occluded`, without depths."""
         if self.device.type != "cpu":
-            return super().points_lit(p, light, dtype, t_pred)
+            return super().points_lit(p, light, dtype)
         bricks = self.cached_bricks()
         points, to_light = p.contiguous().numpy(), light.numpy()
         return lambda depth_bias: torch.from_numpy(~occluded(points, to_light, bricks, depth_bias))

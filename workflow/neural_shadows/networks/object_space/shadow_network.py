@@ -122,21 +122,18 @@ class ShadowNetwork(nn.Module, ABC):
         s = torch.minimum(rays.s, rays.chord)
         return lambda depth_bias: s <= t_pred + depth_bias
 
-    def points_lit(
-        self, p: Tensor, light: Tensor, dtype: torch.dtype, t_pred: Tensor | None = None
-    ) -> Callable[[float], Tensor]:
+    def points_lit(self, p: Tensor, light: Tensor, dtype: torch.dtype) -> Callable[[float], Tensor]:
         """Evaluate once for any number of depth biases [3.6.2]; see `lit`.
 
         Args:
             p, light: as for `sphere_rays`, in normalised space and on the network's device.
-            t_pred: `depths` of their rays, if already predicted.
 
         Returns:
             a function from the depth bias, in sphere radii, to (m,) bool: lit points. Culled ones
             are lit.
         """
         rays = sphere_rays(p, light)
-        rays_lit = self.lit(rays, -light, dtype, t_pred)
+        rays_lit = self.lit(rays, -light, dtype)
 
         def lit(depth_bias: float) -> Tensor:
             points = torch.ones(len(p), dtype=torch.bool, device=p.device)

@@ -14,7 +14,6 @@ Where it applies, it has
     counts_by_view(metrics): values beside image metrics, a row a view.
     soft_table(claim): its table of methods for soft shadows, or None.
     LEAST_SEEDS: of its trainings, instead of two.
-    COUNTS_VIOLATIONS: it counts violations of depth bounds.
     WITHOUT_RUN: it judges a text by itself.
 """
 

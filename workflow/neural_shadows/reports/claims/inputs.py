@@ -51,11 +51,3 @@ def modules(layout: Layout) -> list[Path]:
     """The modules of the claims' kinds, imported by name."""
     names = [claim["kind"] for claim in layout.settings["claims"].values()]
     return [Path(kinds("reports/claims/kinds")[name].__file__) for name in names]
-
-
-def counts_violations(layout: Layout, method: str) -> bool:
-    """Check for a claim on a method's violated bounds."""
-    claims = layout.settings["claims"].values()
-    counting = [claim for claim in claims if by_kind(claim, "COUNTS_VIOLATIONS", default=False)]
-    rows = [row for claim in counting for row in methods(claim)]
-    return method in (row["method"] for row in tables.with_curves(layout, rows))

@@ -121,16 +121,17 @@ def render_references(layout: Layout, scene: str, batch: str) -> Work:
     return Work(LIGHT_START + 0.8 * _views(layout, scene, batch))
 
 
-def query_network(layout: Layout, scene: str, method: str, batch: str) -> Work:
-    return Work(START) + _query(layout, method, _views(layout, scene, batch))
+def count_violations(layout: Layout, scene: str, method: str, batch: str) -> Work:
+    pixels = _views(layout, scene, batch)
+    return Work(START, rays=2 * SEEN * pixels) + _query(layout, method, pixels)
 
 
-def _query(layout: Layout, method: str, pixels: float, share: float = 0.55) -> Work:
-    """Queries of a network on rays in 10⁶ pixels.
+# Share of pixels that face the light.
+SEEN = 0.55
 
-    Args:
-        share: of pixels that face the light.
-    """
+
+def _query(layout: Layout, method: str, pixels: float, share: float = SEEN) -> Work:
+    """Queries of a network on rays in 10⁶ pixels, a share of which face the light."""
     network = layout.on_rays(unbiased(method))["network"]
     rays = 1e6 * share * pixels
     if network["encoding"] == "frequency":
@@ -261,7 +262,10 @@ def tune(layout: Layout, frame_set: str, group: str, method: str) -> Work:
 
 def evaluate(layout: Layout, frame_set: str, group: str, method: str) -> Work:
     if frame_set == VIEWS:
-        return Work(LIGHT_START + 0.7 * _views(layout, *group.split(".")))
+        pixels = _views(layout, *group.split("."))
+        if is_network(method):
+            return Work(START + 0.7 * pixels) + _query(layout, method, pixels)
+        return Work(LIGHT_START + 0.7 * pixels)
     pixels = _tested(layout, frame_set)
     answers = pixels * _lights(layout, frame_set)
     return Work(2 * START + 0.5 * answers) + _answers(layout, method, answers)
@@ -309,7 +313,7 @@ CONSTANT |= {"import_frame": 2 * LIGHT_START}
 BY_RULE: dict[str, Callable[..., Work]] = {
     function.__name__: function
     for function in (
-        *(sample_rays, train, render_references, query_network),
+        *(sample_rays, train, render_references, count_violations),
         *(render_frames, fit_fields, measure_frames, measure_sensitivity),
         *(measure_sun_hours,),
         *(tune, evaluate, answer_frames, time_methods, profile_screen_network),

@@ -6,6 +6,9 @@ import numpy as np
 import pandas as pd
 from pydantic import Field
 
+from neural_shadows.layout import tables
+from neural_shadows.layout.layout import Layout
+from neural_shadows.layout.parts import batches
 from neural_shadows.metrics.intervals import FEWEST_VIEWS, two_way_interval
 from neural_shadows.reports.claims import views
 from neural_shadows.reports.claims.claim_kinds import methods
@@ -15,7 +18,6 @@ from neural_shadows.reports.data.trained import Row
 from neural_shadows.sections.any_report import AnyClaim
 from neural_shadows.sections.sections import Sections
 
-COUNTS_VIOLATIONS = True
 LEAST_SEEDS = 1
 # Counts of violations, of those at points where the error can occur, and of those where it does.
 LOWER = ("lower_violations", "lit_of_lower", "false_shadow_of_lower")
@@ -39,8 +41,19 @@ class Settings(AnyClaim):
         return self.model_dump() | {"rows": rows}
 
 
-files = views.files
 not_learned = views.not_learned
+
+
+def files(layout: Layout, claim: Claim) -> dict[str, list[str]]:
+    """Files of a claim on images, with the networks' counts."""
+    of_views = views.files(layout, claim)
+    rows = tables.with_curves(layout, methods(claim))
+    counted = [
+        layout.paths.violations(row["scene"], row["method"], batch)
+        for row in rows
+        for batch in batches(layout.views)
+    ]
+    return of_views | {"metrics": [*of_views["metrics"], *counted]}
 
 
 def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
