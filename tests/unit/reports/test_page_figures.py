@@ -1,4 +1,5 @@
 import io
+import re
 from urllib.parse import unquote
 from xml.etree import ElementTree
 
@@ -7,6 +8,7 @@ from PIL import Image
 
 from neural_shadows.reports.drawing.chart import add_tooltip
 from neural_shadows.reports.drawing.style import new_figure, write_figure
+from neural_shadows.reports.page.blocks import Block
 from neural_shadows.reports.page.figure_blocks import LARGEST_SVG, figure_blocks, inline_svg
 
 
@@ -19,11 +21,11 @@ def test_large_drawings_and_pictures_are_shown_as_pixels(tmp_path):
         assert 'src="data:image/avif;base64,' in block.html
         assert (block.anchor, block.title) == ("figure-figure_3_1", "Figure 3.1: How")
     # Only figures of the thesis have numbers.
-    table = tmp_path / "cost.csv"
-    table.write_text("a\n1\n")
+    table = Block("table", "cost", "Costs")
     png = png.rename(tmp_path / "figure_cost.png")
     (block,) = figure_blocks([png], {"figure_cost": "Cost"}, {"figure_cost": table})
-    assert (block.title, block.caption, [*block.files]) == ("Cost", "", ["cost.csv"])
+    assert (block.title, block.caption) == ("Cost", "")
+    assert block.files == {"table cost": "#table-cost"}  # whose CSV is on the page already
 
 
 def test_a_drawing_in_the_page_is_whole_and_follows_its_colours(tmp_path):
@@ -31,6 +33,7 @@ def test_a_drawing_in_the_page_is_whole_and_follows_its_colours(tmp_path):
     axes = figure.subplots()
     axes.plot([1, 2], [3, 4], "o", color="#0072b2")
     axes.plot([1, 2], [4, 4], color="#777777")
+    axes.set_xlabel("a < b")
     write_figure(figure, tmp_path / "f.png", tmp_path / "f.svg")
     html = inline_svg((tmp_path / "f.svg").read_bytes(), "figure_x", "Title")
     root = ElementTree.fromstring(html.replace("xlink:", ""))
@@ -42,6 +45,7 @@ def test_a_drawing_in_the_page_is_whole_and_follows_its_colours(tmp_path):
     named = {name.removeprefix("#") for name in used} | {clip[5:-1] for clip in clips}
     assert used and clips and named == {*ids}
     assert "<style" not in html and "metadata" not in html and "&#10;" not in html
+    assert ">a &lt; b</text>" in html and not re.search(r">\s|\d\.\d{3}|font-family", html)
     assert "fill: var(--paper)" in html and "#ffffff" not in html
     assert "stroke: #0072b2" in html and "stroke: var(--soft)" in html
 

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+from importlib import import_module
 from types import SimpleNamespace
 from xml.etree import ElementTree
 
@@ -36,6 +37,7 @@ def job(monkeypatch, tmp_path):
         },
         wildcards={"table": "table_4_3"},
     )
+    import_module(job.params["module"])
     monkeypatch.setattr(provenance, "JOB", job)
     main = SimpleNamespace(__file__=str(CHECKOUT / CLAIMS))
     monkeypatch.setitem(provenance.sys.modules, "__main__", main)
