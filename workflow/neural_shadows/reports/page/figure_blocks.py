@@ -10,10 +10,10 @@ from PIL import Image
 
 from neural_shadows.reports.drawing.chart import data_of
 from neural_shadows.reports.drawing.style import provenance_of
-from neural_shadows.reports.page.blocks import Block, csv_file, csv_uri, lossy_uri, made_line
+from neural_shadows.reports.page.blocks import Block, csv_uri, lossy_uri, made_line
 
 LARGEST_SVG = 300_000  # bytes; a larger one is shown as pixels
-WIDEST, QUALITY = 1280, 40  # of these; the page is 1,008 wide
+WIDEST, QUALITY = 1152, 36  # of these; the page is 1,008 wide
 SVG = "{http://www.w3.org/2000/svg}"
 XLINK = "{http://www.w3.org/1999/xlink}"
 
@@ -27,7 +27,7 @@ THEMED = {
 
 
 def figure_blocks(
-    paths: Sequence[Path], titles: Mapping[str, str], tables: Mapping[str, Path]
+    paths: Sequence[Path], titles: Mapping[str, str], tables: Mapping[str, Block]
 ) -> list[Block]:
     """Figures: an SVG as it is; a large one, or one with pictures in it, as pixels.
 
@@ -35,7 +35,7 @@ def figure_blocks(
 
     Args:
         paths: `.svg` and `.png` of each figure, in order; titles: by name.
-        tables: the CSVs that figures show, by their names.
+        tables: the page's tables that figures show, by the figures' names.
     """
     return [
         _block(svg, svg in paths, titles.get(svg.stem, svg.stem), tables.get(svg.stem))
@@ -43,8 +43,9 @@ def figure_blocks(
     ]
 
 
-def _block(svg: Path, drawn: bool, title: str, table: Path | None) -> Block:
-    caption, files = "", csv_file(table) if table else {}
+def _block(svg: Path, drawn: bool, title: str, table: Block | None) -> Block:
+    # A CSV is on the page once: one of 50 KB was, with its figures, in 12 places.
+    caption, files = "", {f"table {table.name}": f"#{table.anchor}"} if table else {}
     if number := re.fullmatch(r"figure_(\d)_(\d+)", svg.stem):
         caption = f"Figure {number[1]}.{number[2]}"
     if drawn and svg.stat().st_size <= LARGEST_SVG and b"<image" not in svg.read_bytes():
@@ -72,6 +73,7 @@ def inline_svg(content: bytes, name: str, title: str) -> Markup:
         for child in [*parent]:
             if child.tag.endswith(("}metadata", "}style")):
                 parent.remove(child)
+            child.tail = _said(child.tail)
     width, height = (float(size) for size in root.get("viewBox").split()[2:])
     root.attrib = {
         "viewBox": root.get("viewBox"),
@@ -85,6 +87,7 @@ def inline_svg(content: bytes, name: str, title: str) -> Markup:
         root.set("tabindex", "0")  # for the arrow keys
     for element in root.iter():
         element.tag = element.tag.removeprefix(SVG)
+        element.text = _said(element.text)
         if "id" in element.attrib and element.tag not in ("clipPath", "path", "marker"):
             del element.attrib["id"]  # of a group: nothing refers to it
         for key, value in [*element.attrib.items()]:
@@ -93,12 +96,19 @@ def inline_svg(content: bytes, name: str, title: str) -> Markup:
     return Markup(ElementTree.tostring(root, encoding="unicode"))
 
 
+def _said(text: str | None) -> str | None:
+    """A text, without that which only indents."""
+    return text if (text or "").strip() else None
+
+
 def _renamed(key: str, value: str, name: str) -> str:
     if key == "id":
         return f"{name}-{value}"
     if key.endswith("href"):
         return value.replace("#", f"#{name}-")
     value = " ".join(value.replace("url(#", f"url(#{name}-").split())
+    value = re.sub(r" font-family: [^;]*;?", "", value)  # the style sheet's
+    value = re.sub(r"-?\d+\.\d{3,}", lambda match: f"{float(match[0]):.2f}", value)
     return re.sub(r"#[0-9a-f]{6}\b", lambda match: themed(match[0]), value)
 
 

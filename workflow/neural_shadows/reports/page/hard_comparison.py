@@ -21,7 +21,7 @@ from neural_shadows.settings.records import Row
 
 REFERENCE_NAME = f"{LOOKS[REFERENCE].symbol} Reference"
 SCORES = ("lpips", "psnr", "flip")
-MAP_QUALITY = 50
+MAP_QUALITY = 40
 
 
 def hard_comparisons(

@@ -98,8 +98,8 @@ def write_page(
     soft_looks = {label: look_of(method) for method, label in LABELS.items()}
     soft_looks |= dict.fromkeys(networks, NETWORK_LOOK)
     blocks = [table_block(path, soft_looks | looks) for path in tables]
-    csvs = {path.stem: path.with_suffix(".csv") for path in tables}
-    shown = {figure: csvs[table] for figure, table in data.items() if table in csvs}
+    by_name = {block.name: block for block in blocks}
+    shown = {figure: by_name[table] for figure, table in data.items() if table in by_name}
     drawings = figure_blocks(figures, titles, shown)
     meshes_text = f"{[*scenes.values()][0]['mesh_name']}, " if scenes else ""
     # Notes of several tables are shown once.
