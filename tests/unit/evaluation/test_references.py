@@ -6,7 +6,7 @@ from evaluated import FRAMES, make_evaluated
 from shapes import bumpy_sphere, scene_of
 
 from neural_shadows.errors import InputError
-from neural_shadows.evaluation.answers import read_counts, read_view
+from neural_shadows.evaluation.answers import read_view
 from neural_shadows.evaluation.metric_files import read_view_metrics
 from neural_shadows.evaluation.references import References, write_references
 from neural_shadows.rendering.exact_shadow import exact_visibility
@@ -45,7 +45,6 @@ def test_a_batch_holds_the_views_of_each_set(tmp_path, reference):
     "read",
     [
         References,
-        read_counts,
         lambda path: read_view_metrics([path]),
         lambda path: read_view(path, 0, None),
     ],

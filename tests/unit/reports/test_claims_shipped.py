@@ -18,7 +18,7 @@ from neural_shadows.reports.claims.claim_kinds import kind_of, methods
 from neural_shadows.reports.claims.gates import judge
 from neural_shadows.reports.data.trained import THESIS_SAMPLES
 
-REFERENCE = ROOT / "reports" / "reference"
+REFERENCE = ROOT / "reports" / "reference" / "desk"
 
 
 def claims(*kinds):
@@ -100,29 +100,23 @@ def numbers_of(name):
     """A table by its settings or by a reference."""
     layout = of_all_seeds()
     table = layout.entry("tables", name)
-    paths = [path for where in ("*", "earlier/*") for path in REFERENCE.glob(f"{where}/{name}.csv")]
+    path = REFERENCE / f"{name}.csv"
     match table["kind"]:
         case "screen_steps":
             return pd.DataFrame({"row": [*table["steps"]]}).assign(
                 **dict.fromkeys(("runtime", "size", "error", "error_off_edges"), 1.0)
             )
         case "screen_temporal":
-            columns = dict.fromkeys(pd.read_csv(paths[0]), 1.0)
+            columns = dict.fromkeys(pd.read_csv(path), 1.0) | {"null": np.nan}
             return pd.DataFrame(columns | {"label": with_taa(labels_of(name))})
-        case "screen_errors" if not paths:
+        case "screen_errors" if not path.exists():
             frames = layout.entry("frame_sets", table["frame_set"])
             lights = [*range(len(frames["radii"])), "all"]
             rows = product(labels_of(name), frames["scenes"], lights)
             return pd.DataFrame(rows, columns=["label", "frames", "light"]).assign(
                 mse=1.0, mse_off_edges=1.0
             )
-    table = pd.read_csv(paths[0])
-    for column in ("mse", "error"):  # of references that are older than these columns
-        if column in table:
-            table = table.assign(**{f"{column}_off_edges": table[column]})
-    if name == "nsm_penumbrae":
-        table = table.assign(wide_ratio=table["measured_wide"] / table["modelled_wide"])
-    return table
+    return pd.read_csv(path)
 
 
 @pytest.mark.parametrize("name", on_tables())

@@ -45,12 +45,18 @@ not_learned = views.not_learned
 
 
 def files(layout: Layout, claim: Claim) -> dict[str, list[str]]:
-    """Files of a claim on images, with the networks' counts."""
-    of_views = views.files(layout, claim)
-    rows = tables.with_curves(layout, methods(claim))
+    """Files of a claim on images, with the counts of the networks' longest trainings."""
+    of_views, rows = views.files(layout, claim), methods(claim)
+    shorter = {
+        point["experiment"]
+        for points in tables.curves(layout, rows).values()
+        for point in points
+        if point["samples"] < points[-1]["samples"]
+    }
     counted = [
         layout.paths.violations(row["scene"], row["method"], batch)
-        for row in rows
+        for row in tables.with_curves(layout, rows)
+        if row["experiment"] not in shorter
         for batch in batches(layout.views)
     ]
     return of_views | {"metrics": [*of_views["metrics"], *counted]}
