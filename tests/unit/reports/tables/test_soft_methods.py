@@ -116,11 +116,11 @@ def test_error_over_time(written, tmp_path):
 
 
 @pytest.mark.parametrize("radii", [[1], [0, 1]])
-def test_the_legend_is_as_wide_as_the_figure(radii):
-    methods = ["hard", "pcf_3", "pcss", "msm_9", "rt_1", "rt_4_svgf", "no_shadow"]
+def test_the_legend_is_as_wide_as_the_figure_and_names_what_is_drawn(radii):
+    methods = ["hard", "pcf_3", "pcss", "msm_9", "rt_1", "rt_4_svgf", "no_shadow", "base_hard"]
     rows = [
         {"method": method, "label": method, "number": number, "radius": number, "unit": "m"}
-        | {"ms": 1 + k, **dict.fromkeys(ERROR_COLUMNS, 0.1)}
+        | {"ms": 1 + k if k < 6 else np.nan, **dict.fromkeys(ERROR_COLUMNS, 0.1)}
         for k, method in enumerate(methods)
         for number in (0, 1)
     ]
@@ -128,3 +128,4 @@ def test_the_legend_is_as_wide_as_the_figure(radii):
     figure.draw_without_rendering()
     extent = figure.legends[0].get_window_extent()
     assert extent.x0 >= 0 and extent.x1 <= figure.bbox.x1
+    assert len(figure.legends[0].get_texts()) == 6

@@ -8,7 +8,6 @@ from typing import Literal
 import pandas as pd
 from pydantic import Field
 
-from neural_shadows.evaluation.null_predictors import is_null
 from neural_shadows.evaluation.registry import look_of
 from neural_shadows.reports.data.frame_means import ERROR_COLUMNS, with_shown_errors
 from neural_shadows.reports.data.lights import light_name
@@ -56,7 +55,7 @@ def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str
     from matplotlib.lines import Line2D
 
     table, name = with_shown_errors(table)
-    looks = dict.fromkeys(look_of(method) for method in table["method"] if not is_null(method))
+    looks = dict.fromkeys(map(look_of, table.dropna(subset="ms")["method"]))
     entries = [
         Line2D([], [], label=look.name, color=look.colour, marker=look.marker, linestyle="")
         for look in looks
