@@ -25,7 +25,7 @@ def test_large_drawings_and_pictures_are_shown_as_pixels(tmp_path):
     png = png.rename(tmp_path / "figure_cost.png")
     (block,) = figure_blocks([png], {"figure_cost": "Cost"}, {"figure_cost": table})
     assert (block.title, block.caption) == ("Cost", "")
-    assert block.files == {"table cost": "#table-cost"}  # whose CSV is on the page already
+    assert block.files == {"its table": "#table-cost"}  # whose CSV is on the page already
 
 
 def test_a_drawing_in_the_page_is_whole_and_follows_its_colours(tmp_path):

@@ -45,7 +45,7 @@ def figure_blocks(
 
 def _block(svg: Path, drawn: bool, title: str, table: Block | None) -> Block:
     # A CSV is on the page once: one of 50 KB was, with its figures, in 12 places.
-    caption, files = "", {f"table {table.name}": f"#{table.anchor}"} if table else {}
+    caption, files = "", {"its table": f"#{table.anchor}"} if table else {}
     if number := re.fullmatch(r"figure_(\d)_(\d+)", svg.stem):
         caption = f"Figure {number[1]}.{number[2]}"
     if drawn and svg.stat().st_size <= LARGEST_SVG and b"<image" not in svg.read_bytes():
