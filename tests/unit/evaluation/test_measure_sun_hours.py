@@ -6,8 +6,9 @@ import numpy as np
 import pandas as pd
 import pytest
 import trimesh
+from threadpoolctl import threadpool_info, threadpool_limits
 
-from neural_shadows.evaluation.measure_sun_hours import measure_sun_hours
+from neural_shadows.evaluation.measure_sun_hours import Daylight, measure_sun_hours
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.reports.figures import sun_hours as figure
 from neural_shadows.reports.tables import sun_hours as table
@@ -62,6 +63,20 @@ def test_the_same_with_another_axis_up(tmp_path):
     records = [measured(a, PLATE)[0], measured(b, lying, up="z")[0]]
     for name in ("hours", "sky"):
         assert records[0][name] == pytest.approx(records[1][name], rel=0.03)
+
+
+def test_no_second_thread_waits_while_a_method_is_timed(tmp_path, monkeypatch):
+    """Its waiting counted as processor time: twice the time of each method from 250,000 points up."""
+    add, threads = Daylight.add, []
+
+    def watched(*given):
+        threads.extend(library["num_threads"] for library in threadpool_info())
+        return add(*given)
+
+    monkeypatch.setattr(Daylight, "add", watched)
+    with threadpool_limits(2):
+        measured(tmp_path, PLATE, points=500, resolution=32)
+    assert threads and set(threads) == {1}
 
 
 @pytest.fixture(scope="module")

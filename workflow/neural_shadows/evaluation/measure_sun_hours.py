@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from neural_shadows.files.whole_files import whole_file, write_json
 from neural_shadows.meshes.prepared_mesh import PreparedMesh, read_prepared
@@ -62,6 +63,8 @@ class Daylight:
         return occlusion
 
 
+# The waiting of BLAS's other threads would count as a method's time.
+@threadpool_limits.wrap(limits=1)
 def measure_sun_hours(
     mesh_ply: Path,
     hours_npz: Path,
