@@ -155,8 +155,8 @@ rule time_methods:
         PATHS.benchmark("time_methods", "table", "group")
     conda:
         ENVIRONMENT
-    # It computes on one thread; reserving those of a training keeps a small machine undisturbed.
-    threads: COMPUTE["threads"]
+    # It computes on one thread; the others keep a small machine undisturbed.
+    threads: COMPUTE["timing_cores"]
     resources:
         **usual(4000, minutes=120),
         gpu=lambda wildcards: GPUS * evaluations.on_views(LAYOUT, wildcards.table),
@@ -184,8 +184,8 @@ rule measure_sun_hours:
         PATHS.benchmark("measure_sun_hours", "table", "scene")
     conda:
         ENVIRONMENT
-    # It computes on one thread; reserving those of a training keeps a small machine undisturbed.
-    threads: COMPUTE["threads"]
+    # It computes on one thread; the others keep a small machine undisturbed.
+    threads: COMPUTE["timing_cores"]
     resources:
         **usual(4000, minutes=60),
     params:

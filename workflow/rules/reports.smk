@@ -134,14 +134,14 @@ rule expected_minutes:
     conda:
         ENVIRONMENT
     # It measures the machine's rates, so nothing runs beside it. On a cluster there is no number of cores.
-    threads: workflow.cores or COMPUTE["threads"]
+    threads: workflow.cores or COMPUTE["timing_cores"]
     resources:
         **usual(2000, minutes=10),
         gpu=GPUS,
     params:
         code=code("reports/costs/expected_minutes"),
         settings=lambda wildcards: plan(LAYOUT, workflow.rules),
-        cores=workflow.cores or COMPUTE["threads"],
+        cores=workflow.cores or COMPUTE["timing_cores"],
         scale=SETTINGS["scale"],
         device=COMPUTE["device"],
         precision=COMPUTE["precision"],

@@ -10,8 +10,7 @@ rule profile_screen_network:
         PATHS.benchmark("profile_screen_network", "network")
     conda:
         ENVIRONMENT
-    # The threads of a training keep a small machine undisturbed.
-    threads: COMPUTE["threads"]
+    threads: COMPUTE["timing_cores"]
     resources:
         **usual(8000, minutes=60),
         gpu=GPUS,
