@@ -3,6 +3,8 @@
 A table names its CSVs in a comment before it: `<!-- numbers: FILE.csv -->`. The numbers of each of its
 rows, without the first cell, must be those of one method in these files, whatever their columns; with
 `<!-- numbers by column: … -->` those of each column; with `of 2: ` before the files, of two methods.
+
+A table with `<!-- verdicts: FILE.csv -->` counts the claims of each text that need a run, by verdict.
 """
 
 import csv
@@ -12,7 +14,20 @@ from collections.abc import Iterable, Iterator
 from itertools import combinations
 from pathlib import Path
 
+from neural_shadows.reports.data import verdicts
+from neural_shadows.reports.page.claim_cards import SOURCES
+
 MARK = re.compile(r"<!-- numbers( by column)?:(?: of (\d):)? ([^>]+\.csv) -->\n\n?((?:\|.*\n)+)")
+COUNTED = re.compile(r"<!-- verdicts: ([^>]+\.csv) -->\n\n?((?:\|.*\n)+)")
+# What a column of such a table counts, by its heading.
+COUNTS = {
+    "all": verdicts.VERDICTS,
+    "supported": (verdicts.SUPPORTED,),
+    "contradicted": (verdicts.CONTRADICTED,),
+    "not learned, undecided": (verdicts.NOT_LEARNED, verdicts.TOO_SMALL, verdicts.UNDECIDED),
+    "other mesh or device": (verdicts.NOT_COMPARABLE,),
+    "vacuous": (verdicts.VACUOUS,),
+}
 NUMBER = re.compile(r"(?<![\w.])[-−+]?\d[\d,]*(?:\.\d+)?")
 # What a column's numbers may be multiplied by: percent, × 10⁻⁴, KiB, MiB, 10⁶.
 UNITS = (1, 1e2, 1e4, 1 / 1024, 1 / 1024**2, 1e-6)
@@ -32,12 +47,30 @@ def mistakes(text: str, folder: Path) -> list[str]:
     return found
 
 
+def miscounts(text: str, folder: Path) -> list[str]:
+    """Rows of tables of verdicts that count other claims than the file has, one message each."""
+    found = []
+    for name, table in COUNTED.findall(text):
+        with (folder / name).open(encoding="utf-8", newline="") as file:
+            claims = [row for row in csv.DictReader(file) if row["kind"] != "printed"]
+        (_, *head), _, *body = _cells(table)
+        for source, *cells in body:
+            of = [row["verdict"] for row in claims if SOURCES[row["text"]] == source]
+            counts = [str(sum(one in COUNTS[column] for one in of)) for column in head]
+            if counts != cells:
+                found.append(f"{name}: {source}: {counts}, and not {cells}")
+    return found
+
+
 def _lines(table: str, by_column: bool) -> Iterator[list[str]]:
     """Cells of each row or column, the heading first."""
-    rows = [[cell.strip() for cell in row.strip()[1:-1].split("|")] for row in table.splitlines()]
-    head, _, *body = rows
+    head, _, *body = _cells(table)
     columns = [list(cells) for cells in zip(head, *body)]
     yield from columns[1:] if by_column else body
+
+
+def _cells(table: str) -> list[list[str]]:
+    return [[cell.strip() for cell in row.strip()[1:-1].split("|")] for row in table.splitlines()]
 
 
 def _methods(paths: Iterable[Path]) -> list[tuple[set[str], list[float]]]:

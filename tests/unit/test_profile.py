@@ -23,14 +23,8 @@ def test_rules_exist():
 def test_what_is_not_grouped_is_long_or_local():
     long = {"describe_rays", "train", "render_references", "count_violations", "evaluate"}
     long |= {"tune", "export_network", "render_frames", "measure_frames"}
-    long |= {
-        "measure_sensitivity",
-        "answer_frames",
-        "fit_fields",
-        "expected_minutes",
-        "measure_sun_hours",
-    }
-    timed = {"time_methods", "profile_screen_network"}
+    long |= {"measure_sensitivity", "answer_frames", "fit_fields", "expected_minutes"}
+    timed = {"time_methods", "profile_screen_network", "measure_sun_hours"}
     local = {name for name, rule in RULES.items() if "localrule: True" in rule}
     assert local == {"find_lpips", "get_mesh", "restore_weights"}  # these may download
     assert PROFILE["set-resources"].keys() == timed

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from claimed_numbers import MARK, mistakes
+from claimed_numbers import MARK, miscounts, mistakes
 
 ROOT = Path(__file__).parents[3]
 REFERENCE = ROOT / "reports/reference"
@@ -22,6 +22,7 @@ def test_tables_have_the_numbers_of_their_files(text):
     content = (ROOT / text).read_text(encoding="utf-8")
     assert len(MARK.findall(content)) >= 2
     assert mistakes(content, REFERENCE) == []
+    assert miscounts(content, REFERENCE) == []
 
 
 @pytest.mark.parametrize(
@@ -42,3 +43,17 @@ def test_methods_side_by_side(tmp_path):
     pair = "<!-- numbers: of 2: some.csv -->\n\n| | map | PCSS |\n|---|---|---|\n| error | 232 | 24.6 |\n"
     assert mistakes(pair, tmp_path) == []
     assert len(mistakes(pair.replace("of 2: ", ""), tmp_path)) == 1
+
+
+def test_verdicts_are_counted_by_text(tmp_path):
+    rows = [
+        "nsm,ratio,supported",
+        "nsm,better,undecided (scale)",
+        "nsm,printed,supported",
+        "own,ratio,supported",
+    ]
+    (tmp_path / "claims.csv").write_text("\n".join(["text,kind,verdict", *rows]))
+    table = "<!-- verdicts: claims.csv -->\n| | all | supported |\n|---|---|---|\n| Datta et al. 2022 | 2 | 1 |\n"
+    assert miscounts(table, tmp_path) == []
+    (fault,) = miscounts(table.replace("| 1 |", "| 2 |"), tmp_path)
+    assert "Datta et al. 2022" in fault
