@@ -110,6 +110,8 @@ STAGES = WORKFLOW / "neural_shadows"
 
 # GPUs of a job that computes networks; with `device: auto` a GPU is used, not reserved.
 GPUS = int(COMPUTE["device"] == "cuda")
+# Cores of the run. A cluster's may have no number.
+CORES = workflow.global_resources["_cores"].value or COMPUTE["timing_cores"]
 
 
 wildcard_constraints:

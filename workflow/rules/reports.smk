@@ -133,15 +133,15 @@ rule expected_minutes:
         PATHS.log("expected_minutes"),
     conda:
         ENVIRONMENT
-    # It measures the machine's rates, so nothing runs beside it. On a cluster there is no number of cores.
-    threads: workflow.cores or COMPUTE["timing_cores"]
+    # It measures the machine's rates, so nothing runs beside it.
+    threads: CORES
     resources:
         **usual(2000, minutes=10),
         gpu=GPUS,
     params:
         code=code("reports/costs/expected_minutes"),
         settings=lambda wildcards: plan(LAYOUT, workflow.rules),
-        cores=workflow.cores or COMPUTE["timing_cores"],
+        cores=CORES,
         scale=SETTINGS["scale"],
         device=COMPUTE["device"],
         precision=COMPUTE["precision"],

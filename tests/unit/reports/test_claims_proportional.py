@@ -8,7 +8,12 @@ from neural_shadows.reports.claims.gates import judge
 from neural_shadows.reports.data import verdicts
 
 LEVELS = pd.DataFrame(
-    {"runtime": [8.0, 4.0, 2.0], "storage_io": [16.0, 8.0, 4.0], "compute": [1.0, 2.0, 4.0]}
+    {
+        "runtime": [8.0, 4.0, 2.0],
+        "storage_io": [16.0, 8.0, 4.0],
+        "compute": [1.0, 2.0, 4.0],
+        "unmeasured": [1.0, float("nan"), 4.0],
+    }
 )
 
 
@@ -18,7 +23,8 @@ LEVELS = pd.DataFrame(
         # (8 · 1 + 4 · 2 + 2 · 4)² of 84 · 21
         ("storage_io", "compute", True, verdicts.SUPPORTED, "R² 1.000 over storage_io, R² 0.327"),
         ("compute", "storage_io", True, verdicts.CONTRADICTED, "R² 0.327 over compute"),
-        ("compute", "compute", True, verdicts.CONTRADICTED, ""),  # alike is not more
+        ("compute", "compute", True, verdicts.UNDECIDED, ""),  # alike
+        ("storage_io", "unmeasured", True, verdicts.TOO_SMALL, "in a row of levels"),
         ("storage_io", "compute", False, verdicts.NOT_COMPARABLE, "the paper's size"),
         ("storage_io", "bytes", True, verdicts.TOO_SMALL, "no bytes in levels"),
     ],

@@ -27,11 +27,14 @@ def test_a_field_that_does_not_fit_is_refused_with_its_size(tmp_path, monkeypatc
 
 
 def test_a_container_may_have_less_than_the_machine(tmp_path, monkeypatch):
+    """What its other processes use is not available, but for cached files."""
     limit = tmp_path / "memory.max"
-    monkeypatch.setattr(process_memory, "CONTAINER", limit)
+    monkeypatch.setattr(process_memory, "CONTAINER", tmp_path)
     machine = process_memory.available_bytes()
     assert machine > 2**26
     limit.write_text("max\n")
     assert process_memory.available_bytes() == pytest.approx(machine, rel=0.3)
     limit.write_text("4096\n")
-    assert process_memory.available_bytes() == 4096
+    (tmp_path / "memory.current").write_text("3072\n")
+    (tmp_path / "memory.stat").write_text("anon 2048\ninactive_file 512\nactive_file 512\n")
+    assert process_memory.available_bytes() == 4096 - 3072 + 512

@@ -152,6 +152,18 @@ def test_resumes_and_does_not_depend_on_threads(tmp_path, network, optimiser, pr
     assert [*killed["null_mse"]] == ["no_shadow", "hard_map", *bases]
 
 
+def test_frames_written_anew_are_trained_on_anew(tmp_path):
+    """The checkpoint of an interrupted training is of others, if below the same description."""
+    part = write_frames(tmp_path)
+    with pytest.raises(KeyboardInterrupt):
+        run(tmp_path / "killed", part, stop_after=4)
+    targets = part.with_suffix(".targets.npy")
+    np.save(targets, 1 - np.load(targets))
+    killed = run(tmp_path / "killed", part)
+    assert killed["final_loss"] == run(tmp_path / "whole", part)["final_loss"]
+    assert contents(tmp_path / "killed") == contents(tmp_path / "whole")
+
+
 def test_an_exponent_trains_on_logarithms(tmp_path):
     """It leaves what the map shows lit as it is, whatever its light, and darkens what lies behind."""
     part = write_frames(tmp_path)

@@ -47,7 +47,7 @@ def profile_screen_network(
     Args:
         profile_json: `levels`: `weights` (without biases), and for a pixel of the frame `macs` and
             `storage` of each; `runs`, in float32 and bfloat16 (see `is_native`), on one thread, on
-            all, and on a GPU if there is one: `whole_ms`, `parts` (`level`, `part`, `ms`), and
+            `threads`, and on a GPU if there is one: `whole_ms`, `parts` (`level`, `part`, `ms`), and
             `product_macs`, multiply-adds a second of a product of square matrices.
         profile: `width`, `height` (pixels), `repeats`, and `product_size`, rows and columns of the
             matrices whose product is the rate to reach.

@@ -58,9 +58,7 @@ class _OpenedNetwork:
         self._network = network.for_inference().in_format(choose_dtype(precision, _CPU))
 
     def method(self) -> Method:
-        bytes_held = 2 * sum(
-            weight.numel() for weight in self._network.parameters()
-        )  # 16 bits each
+        bytes_held = sum(w.numel() * w.element_size() for w in self._network.parameters())
         return Method(
             self._of_frame,
             # Stored buffers hold no rays.

@@ -6,7 +6,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from neural_shadows.errors import InputError
+from neural_shadows.errors import InputError, is_full_disk
 
 
 @contextmanager
@@ -24,6 +24,7 @@ def downloaded(
 
     Raises:
         InputError: no connection, another file, or an OSError or ValueError of the block.
+        OSError: a full disk.
     """
     import pooch
 
@@ -40,5 +41,7 @@ def downloaded(
             )
             yield [Path(file) for file in ([files] if isinstance(files, str) else files)]
     except (OSError, ValueError) as error:  # from requests, or a wrong digest
+        if is_full_disk(error):
+            raise
         reason = " ".join(str(error).split())[:300]
         raise InputError(f"cannot download {url}: {reason}. {cure}") from error

@@ -15,6 +15,7 @@ import scipy
 from neural_shadows.metrics.pooled_psnr import mse_of, psnr_of
 
 LEVEL = 0.95
+RESAMPLES = 2000
 FEWEST_VIEWS = 10  # views or frames for a decision; of fewer a percentile is a single view
 # Scenes that are units of their own. Of five, 2.8 standard errors either way; of fewer (4: 3.2, 3: 4.3,
 # 2: 12.7) nothing is decided for other scenes, and frames are samples of these alone.
@@ -22,7 +23,7 @@ FEWEST_SCENES = 5
 
 
 def mean_interval(
-    values: np.ndarray, seed: int, resamples: int = 2000
+    values: np.ndarray, seed: int, resamples: int = RESAMPLES
 ) -> tuple[float, float, float]:
     """Mean of `values` (n,) with its interval: (mean, low, high).
 
@@ -36,24 +37,18 @@ def mean_interval(
     return _interval((values,), np.mean, seed, resamples)
 
 
-def paired_difference(
-    a: np.ndarray, b: np.ndarray, seed: int, resamples: int = 2000
-) -> tuple[float, float, float]:
+def paired_difference(a: np.ndarray, b: np.ndarray, seed: int) -> tuple[float, float, float]:
     """Mean difference on the same views: (a − b, low, high). Of two methods, (n,) each."""
-    return mean_interval(np.subtract(a, b, dtype=np.float64), seed, resamples)
+    return mean_interval(np.subtract(a, b, dtype=np.float64), seed)
 
 
-def pooled_psnr_interval(
-    psnr: np.ndarray, seed: int, resamples: int = 2000
-) -> tuple[float, float, float]:
+def pooled_psnr_interval(psnr: np.ndarray, seed: int) -> tuple[float, float, float]:
     """Pooled PSNR of a method's views (n,), dB: (value, low, high). Views are resampled."""
-    mean, low, high = mean_interval(mse_of(psnr), seed, resamples)
+    mean, low, high = mean_interval(mse_of(psnr), seed)
     return tuple(float(psnr_of(mse)) for mse in (mean, high, low))
 
 
-def pooled_psnr_difference(
-    a: np.ndarray, b: np.ndarray, seed: int, resamples: int = 2000
-) -> tuple[float, float, float]:
+def pooled_psnr_difference(a: np.ndarray, b: np.ndarray, seed: int) -> tuple[float, float, float]:
     """Difference of pooled PSNRs, dB: (a − b, low, high). Of two methods on the same views.
 
     Args:
@@ -62,7 +57,7 @@ def pooled_psnr_difference(
     squares = mse_of(a), mse_of(b)
     if len(squares[0]) == 1:
         return (float(np.subtract(a, b)[0]),) * 3
-    return _interval(squares, _psnr_difference, seed, resamples, paired=True)
+    return _interval(squares, _psnr_difference, seed, paired=True)
 
 
 def t_interval(values: np.ndarray) -> tuple[float, float, float, float]:
@@ -189,7 +184,11 @@ def _psnr_difference(a: np.ndarray, b: np.ndarray, axis: int = -1) -> np.ndarray
 
 
 def _interval(
-    samples: tuple[np.ndarray, ...], statistic: Callable, seed: int, resamples: int, paired=False
+    samples: tuple[np.ndarray, ...],
+    statistic: Callable,
+    seed: int,
+    resamples: int = RESAMPLES,
+    paired: bool = False,
 ) -> tuple[float, float, float]:
     low, high = scipy.stats.bootstrap(
         samples,

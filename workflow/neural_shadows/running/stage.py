@@ -1,6 +1,5 @@
 """Jobs of the workflow: calls of stage functions, logs, error messages."""
 
-import errno
 import faulthandler
 import inspect
 import os
@@ -12,7 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
-from neural_shadows.errors import InputError
+from neural_shadows.errors import InputError, is_full_disk
 from neural_shadows.running import origin, progress, provenance
 
 # Used by Snakemake only: the digest of the code behind a result, files to be built along with a
@@ -69,7 +68,7 @@ def run_stage(
 
 def _message(error: Exception) -> str:
     """One line for an error."""
-    if isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT):
+    if is_full_disk(error):
         place = error.filename or f"a file on the disk of {Path.cwd()}"
         return f"{place}: {error.strerror}. Make room; the same command then continues."
     # These errors name the file and the reason; others need their type.

@@ -15,7 +15,10 @@ class Compute(Model):
     # 1.4 times (the thesis's network, batches of 1,024) the samples a second of one on two threads.
     threads: int = Field(1, ge=1, le=1024, description="CPU threads of a sampling or training job")
     timing_cores: int = Field(
-        2, ge=1, le=1024, description="cores that a job which times methods keeps to itself"
+        2,
+        ge=1,
+        le=1024,
+        description="cores that a job of times keeps to itself: methods and hours of sun on one thread, networks by level on one and on all",
     )
     precision: Literal["auto", "float32", "bfloat16", "float16"] = Field(
         "auto",

@@ -176,8 +176,14 @@ def _check_perturbed(frames: ScreenFrames, train: Sequence[Path], training: Scre
 
 
 def _digest(files: Sequence[Path]) -> str:
-    """Digest of the data's descriptions; the arrays beside them follow from these."""
-    return hashlib.sha256(json.dumps([sha256_of(path) for path in files]).encode()).hexdigest()
+    """Digest of the data's descriptions, and of sizes and times of the arrays beside them.
+
+    A user may write arrays anew below the same description. Gigabytes are not read for it.
+    """
+    arrays = [array for path in files for array in sorted(path.parent.glob(f"{path.stem}.*.npy"))]
+    states = [(path.name, path.stat().st_size, path.stat().st_mtime_ns) for path in arrays]
+    described = [sha256_of(path) for path in files]
+    return hashlib.sha256(json.dumps([described, states]).encode()).hexdigest()
 
 
 if "snakemake" in globals():

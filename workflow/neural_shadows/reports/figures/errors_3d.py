@@ -51,7 +51,6 @@ def draw(
     rows: Sequence[Row],
     device: str = "auto",
     precision: str = "auto",
-    threads: int = 1,
 ) -> Figure:
     """Draw each method's wrong points in a batch of viewpoints.
 
@@ -78,7 +77,7 @@ def draw(
             method = classic_method(name, opened)
         else:
             path = weight_paths[row["experiment"]]
-            network, dtype = ray_network.open_network(path, device, threads, precision)
+            network, dtype = ray_network.open_network(path, device, 1, precision)
             bias = ray_network.take_constants(network, bias_path) if bias_path else row["bias"]
             method = ray_network.network_method(network, dtype)
         p, error, share = wrong_points(method, bias, References(references))

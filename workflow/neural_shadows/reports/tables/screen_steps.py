@@ -161,7 +161,7 @@ def steps_table(
     """Tabulate time, size and error by step, and errors of null predictors.
 
     Columns: `row`, `null` (see `TrainedFrames.nulls`), `network`, `precision`, `runtime` (ms of a
-    frame on all of the machine's threads, or its GPU, see `run` and `device`), `share` of a matrix
+    frame on `compute.timing_cores` threads, or a GPU, see `run` and `device`), `share` of a matrix
     product's rate, `size` (MiB of weights and biases not counted), `error` (mean squared) and
     `error_off_edges` with the ends of their intervals, NaN of what is not trained. Times and errors
     are NaN, too, in a number format that the machine would emulate.

@@ -46,9 +46,13 @@ def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
     if missing := [each for each in (column, *over) if each not in table]:
         return [Comparison(**fields, untested=f"no {', '.join(missing)} in {name}")]
     shares = [explained(table[column].to_numpy(), table[each].to_numpy()) for each in over]
+    if not np.isfinite(shares).all():
+        return [
+            Comparison(**fields, untested=f"no {', '.join((column, *over))} in a row of {name}")
+        ]
     number = ", ".join(f"R² {share:.3f} over {each}" for share, each in zip(shares, over))
-    holds = shares[0] > shares[1]
-    return [Comparison(**fields, number=number, supports=holds, against=float(holds))]
+    supports, against = shares[0] > shares[1], float(shares[0] >= shares[1])
+    return [Comparison(**fields, number=number, supports=supports, against=against)]
 
 
 def explained(y: np.ndarray, x: np.ndarray) -> float:

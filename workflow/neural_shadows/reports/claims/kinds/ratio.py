@@ -50,9 +50,11 @@ class Ratio(setting_types.Bounded):
     )
 
     @model_validator(mode="after")
-    def _check_per(self):
+    def _check_sides(self):
         if self.per is not None and self.to is None:
             raise ValueError("a ratio to the sum of all others has no `per`")
+        if self.null_predictor is not None and not isinstance(self.to, float):
+            raise ValueError("`null_predictor` is a number over `to`: give `to` as a number")
         return self
 
 
