@@ -15,6 +15,7 @@ networks.thesis.encoding | wavelet | encoding = 'wavelet': should be one of 'fre
 experiments.dragon_hash_grid.network.table_size | 1000 | table_size: 1000 is not a power of two
 trainings.base.learning_rate | 1e-3 | = '1e-3': is text to YAML; write a number with a
 scale | networks | scale = 'networks': is a folder of results
+scale | sun_hours | scale = 'sun_hours': is a folder of results
 scenes.dragon.mesh.path | x.ply | (an overlay removes a key of the default by setting it to null)
 scenes.landscape.light.axis | y | must be horizontal, not `up`. Allowed: x, z
 scenes.landscape.view_sets | [shadow] | 'shadow' needs a scene with ground: true
@@ -25,6 +26,15 @@ experiments.twin | {like: dragon} | experiments.twin: equals experiments.dragon
 tables.maps | {rows: [shadow_map_64], title: x} | tables.maps: has shadow maps only. Add `scene`
 tables.table_4_3.rows.0 | dragn | tables.table_4_3.rows of dragon: 'dragn' (did you mean 'dragon
 tables.table_4_3.rows.0 | shadow_map_512 | 'shadow_map_512' is listed twice
+tables.table_4_3.rows.0 | {method: dragon_64, published: netwrk} | tables.table_4_3: published: 'netwrk' (did you mean 'network'?)
+tables.beyond.rows.dragon.0 | {method: ray_traced, published: network} | tables.beyond: has rows with `published`: 'network', and none itself
+tables.beyond.against | {city: dragon} | tables.beyond.against: 'city' is not among dragon, fence
+tables.kpnsm_table_3.methods | [{method: pcss, published: pccs}] | tables.kpnsm_table_3: published: 'pccs'
+tables.kpnsm_table_2.methods.0 | {method: pcss, published: layers_3, column: filter} | published: layers_3: column: 'filter'
+tables.nsm_table_s4.networks.0 | {network: layers_3, published: layer_3} | tables.nsm_table_s4: published: 'layer_3'
+tables.nsm_unseen.frame_set | sun | tables.nsm_unseen.networks: 'nsm' is trained on lights with radii in metres
+frame_sets.nsm_plates.radii | [0] | nsm_plates' has lights without extent alone
+figures.figure_nsm_flicker.methods | [nsm_trimed] | figure_nsm_flicker.methods: 'nsm_trimed' (did you mean 'nsm_trimmed'?)
 figures.figure_4_4.view_sets | [centre] | figure_4_4.view_sets: 'centre' is not among shadow, su
 figures.figure_beyond_dragon.table | table_4_6 | 'table_4_6' is not among beyond, ablations
 figures.figure_beyond_slice.experiment | dragon | experiment: 'dragon' (did you mean 'dragon_fi

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from unittest import mock
 
 import pytest
 from checkout import ROOT
@@ -28,6 +29,13 @@ def compared(tmp_path):
         return compare_tables(*(tmp_path / folder / f"{name}.csv" for folder in ("old", "new")))
 
     return compare
+
+
+def test_a_ratio_of_errors_is_compared_and_one_of_times_is_not(compared):
+    for times, verdict in (("", "differs"), ("own_ms,", "not compared")):
+        old, new = (f"method,{times}ratio\nmap,{times and '1,'}{ratio}\n" for ratio in (2, 3))
+        with mock.patch(f"{__name__}.OLD", old):
+            assert compared(new).counts[verdict] == 1 + bool(times)
 
 
 def test_equal_runs_are_the_same_but_for_times_and_what_repeats_others(compared):

@@ -10,6 +10,7 @@ from neural_shadows.config.checks import (
     frame_sets,
     learning_curves,
     networks_by_scene,
+    printed_rows,
     scenes,
     viewers,
 )
@@ -26,7 +27,7 @@ RESERVED_SCALES = {
     *("scenes", "rays", "networks", "references", "violations", "evaluations", "constants"),
     *("times", "logs", "benchmarks", "reference"),
     *("frames", "imported_frames", "frame_measures"),
-    *("screen_profiles", "screen_sensitivities", "soft_fields"),
+    *("screen_profiles", "screen_sensitivities", "soft_fields", "sun_hours", "answers"),
 }
 RESERVED_TABLES = ("claims", "expected_minutes", "index", "manifest")
 
@@ -58,6 +59,7 @@ class Config(Sections):
         for section in ("tables", "figures"):
             for name, entry in getattr(self, section).items():
                 entry.check(self, f"{section}.{name}")
+        printed_rows.check(self)
         viewers.check(self)
         for name, claim in self.claims.items():
             claim.check(self, f"claims.{name}")

@@ -1,5 +1,6 @@
 """Size of a light as input of networks."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 LARGEST_STEP = 4  # NSM's index of the largest light: 50 cm across
@@ -25,6 +26,7 @@ def light_size(radius: float, largest: float, scene_size: float, away: float = 0
     return LightSize(LARGEST_STEP * radius / (largest or 1), radius / scene_size, away)
 
 
-def shown_radii(count: int) -> list[int]:
-    """Default radii of pictures: the least but a point, the middle, the largest."""
-    return sorted({min(1, count - 1), count // 2, count - 1})
+def shown_radii(radii: Sequence[float]) -> list[int]:
+    """Numbers of the radii that pictures show: the least but a point, the middle, the largest."""
+    last = len(radii) - 1
+    return sorted({min(int(radii[0] == 0), last), len(radii) // 2, last})

@@ -1,6 +1,6 @@
 """Base classes of tables on frame sets."""
 
-from typing import Any
+from typing import Any, ClassVar
 
 from pydantic import Field
 
@@ -20,8 +20,14 @@ class FramesTable(AnyTable):
     """Common base of tables on a frame set."""
 
     own_chapter = "networks"
+    shown_in: ClassVar[str] = "methods"  # the key of `methods_shown`
 
     frame_set: FrameSetName = Field(description="a name in `frame_sets`, but `views`")
+
+    def check(self, config: Sections, key: str) -> None:
+        """Check the frame set against the table's methods."""
+        for method in self.methods_shown():
+            check_method(config, f"{key}.{self.shown_in}: {method!r}", self.frame_set, method)
 
 
 class NsmTable(AnyTable):
@@ -43,6 +49,8 @@ class ProfileTable(NsmTable):
 class NetworksTable(FramesTable):
     """Table of trained screen-space networks on a frame set."""
 
+    shown_in = "networks"
+
     networks: list[ScreenExperimentName] = Field(
         min_length=1, description="experiments on frames, in the table's order"
     )
@@ -53,6 +61,8 @@ class NetworksTable(FramesTable):
 
 class ColumnsTable(FramesTable):
     """Table of trained screen-space networks by the paper's names."""
+
+    shown_in = "columns"
 
     columns: dict[Name, ScreenExperimentName] = Field(
         min_length=1, description="an experiment on frames for each of the paper's names"
@@ -88,11 +98,30 @@ class MethodsTable(FramesTable):
                     f"{key}.methods: {method!r} needs the scene's geometry, and a user's own frames have "
                     f"none. Allowed: {bases}, and networks"
                 )
-            check_method(config, f"{key}.methods: {method!r}", self.frame_set, method)
+        super().check(config, key)
         if self.needs_sequence() and not getattr(frames, "sequence", 0):
             raise ValueError(
                 f"{key}.frame_set: frame_sets.{self.frame_set} has sequence = 0. Set 2 or more"
             )
+
+
+def check_penumbrae(config: Sections, key: str, frame_set: str) -> None:
+    """Check a frame set for penumbrae in scenes.
+
+    Raises:
+        ValueError: a user's own frames, or point lights alone.
+    """
+    frames = config.frame_sets[frame_set]
+    if isinstance(frames, OwnFrames):
+        raise ValueError(
+            f"{key}.frame_set: {frame_set!r} is of a user's own frames, which have "
+            "no scene. Choose another frame set"
+        )
+    if not any(frames.radii):
+        raise ValueError(
+            f"{key}.frame_set: {frame_set!r} has lights without extent alone, and so no penumbrae. Choose "
+            "another frame set"
+        )
 
 
 def check_method(config: Sections, key: str, frame_set: str, method: str) -> None:

@@ -66,6 +66,7 @@ def write_viewer(
     with whole_file(png) as part:
         image.save(part, "PNG")
     report = read_json(mesh_json)
+    paths = {path.parent.name: path for path in weights}
     biases = {path.stem: path for path in depth_biases}
     title = f"Shadows of {report['name']}"
     data = {
@@ -85,7 +86,7 @@ def write_viewer(
             )
         },
         "views": shown_views(opened, frames, views),
-        "networks": [_network(path, row, biases) for path, row in zip(weights, rows)],
+        "networks": [_network(paths[row["experiment"]], row, biases) for row in rows],
         "shaders": shaders(template),
     }
     verb = "is decimated to" if len(faces) < report["faces"] else "has its"

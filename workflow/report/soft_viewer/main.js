@@ -16,7 +16,7 @@ async function startSoftViewer(root, data) {
     left: "hard", right: networks.at(-1)?.key ?? "pcss", divider: 50, look: "shaded", resolution: data.resolution,
     move: [0, 0, 0], ...start(first), ...pick(stateOf(location.hash.slice(1), all.map(({ key }) => key), data.radius)),
   };
-  let rest = 0, playing = null, detail = "auto", touched = false;
+  let rest = 0, moved = 0, playing = null, detail = "auto", touched = false;
 
   function pick(values) {
     return values.view ? { ...values, view: { ...values.view, up: [0, 1, 0] } } : values;
@@ -177,15 +177,23 @@ async function startSoftViewer(root, data) {
     state.divider = divider ?? state.divider;
     place();
     painter.draw();
+    touched = true;
+    clearTimeout(moved);
+    moved = setTimeout(() => writeAddress(stateText(state)), 250);
   }, () => state.divider);
   new ResizeObserver(() => fit()).observe(canvas);
   canvas.addEventListener("webglcontextlost", () => fail(root, new Unavailable(
     "The graphics driver has stopped this page's drawing. Load it anew.")));
-  addEventListener("hashchange", () => take(pick(stateOf(location.hash.slice(1), Object.keys(methods), data.radius))));
+  const open = (text) => take(pick(stateOf(text, Object.keys(methods), data.radius)));
+  addEventListener("hashchange", () => open(location.hash.slice(1)));
+  addEventListener("message", ({ data: given }) => {
+    if (typeof given?.open === "string") open(given.open);
+  });
 
   orbit.set(state.view);
   root.classList.add("ready");
   fit();
+  if (window.parent !== window) writeAddress(""); // the page may have a state for it
 
   // For tests and scripts: a method's answers, rows from the top, (height · width) numbers in [0, 1].
   function answers(key, asked) {

@@ -3,7 +3,6 @@
 
 const MOMENTS = { taps: 9, biasScale: 0.1, bleeding: 0.1 };
 const RAY_COUNTS = [1, 2, 4, 8];
-const SOURCES = { map: ["light_map", "receiver"], plain: [] };
 
 const KIB = (bytes) => bytes < 1 << 20 ? `${Math.round(bytes / 1024)} KiB` : `${(bytes / (1 << 20)).toFixed(1)} MiB`;
 

@@ -82,7 +82,7 @@ class Painter {
     const size = this.sizeOf(height), state = { ...this.state(), size, truth: rays }, needs = state.look === "error";
     const reference = needs || again ? yield* this.#timed(this.methods.truth, state) : null;
     for (const side of SIDES) {
-      const method = this.methods[state[side]], key = JSON.stringify([state, side]);
+      const method = this.methods[state[side]];
       const answer = again && method.key !== "truth" && this.answers?.[side] || (yield* this.#timed(method, state));
       this.answers = { ...this.answers, [side]: answer };
       this.#shade(side, answer, reference, state, moving);

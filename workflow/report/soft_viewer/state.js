@@ -24,7 +24,8 @@ function stateOf(text, keys, largest) {
   const eye = parsed(values.get("eye"), 3), target = parsed(values.get("target"), 3);
   if (eye && target && Math.hypot(...plus(eye, target, -1)) > 0.01 && fov >= 5 && fov <= 120) state.view = { eye, target, fov };
   const centre = parsed(values.get("light"), 3), move = parsed(values.get("object"), 3);
-  if (centre && radius >= 0 && radius <= largest * 1.001) state.light = { centre, radius: Math.min(radius, largest) };
+  // As `stateText` rounds it.
+  if (centre && radius >= 0 && radius <= largest + 0.5e-4) state.light = { centre, radius: Math.min(radius, largest) };
   if (move) state.move = move;
   return state;
 }

@@ -45,7 +45,8 @@ const PLY_TYPES = {
 };
 
 function readPly(bytes) {
-  const start = textOf(bytes, 0, Math.min(bytes.byteLength, 65536));
+  // A character a byte, whatever a comment is written in: the data begin at the header's length.
+  const start = new TextDecoder("latin1").decode(new Uint8Array(bytes, 0, Math.min(bytes.byteLength, 65536)));
   const header = start.match(/^ply\s[^]*?end_header\r?\n/)?.[0];
   if (!header) throw new Error("no header of a PLY file");
   const format = header.match(/^format (\w+)/m)?.[1];

@@ -216,6 +216,9 @@ def test_what_was_learned_beside_what_was_not(made):
         ("sequences", "1"): 0.09,
     }
     assert cells.loc[("room_dragon", "all"), "ratio"] == cells.loc[("sequences", "1"), "ratio"] == 3
+    # Of the lights that were trained, without all of them together: 0.02 and 0.04 of 0.01 and 0.03.
+    row = next(line for line in text.splitlines() if "| room " in line and "MSE ×" in line)
+    assert f"{(2 + 4 / 3) / 2:.2f}" in row
     assert cells.loc[("room", "1"), "width"] == 12 and "exact width, px" in text
     assert "room_dragon (unseen)" in text and "room (unseen)" not in text
 

@@ -163,7 +163,7 @@ def _draw(measured: MeasuredFrame, visibility: np.ndarray, label: str, stem: Pat
     for k, image in enumerate(visibility):
         with whole_file(stem.with_name(f"{stem.name}_visibility_{k}.png")) as part:
             Image.fromarray(np.round(255 * image).astype(np.uint8)).save(part, format="png")
-    shown, bases = shown_radii(len(visibility)), _bases(measured)
+    shown, bases = shown_radii(measured.part.radii), _bases(measured)
     answers = {base: np.stack([measured.picture(base)] * len(shown)) for base in bases}
     answers["own"] = visibility[shown]
     labels = {base: f"its {base}" for base in bases} | {"own": label}

@@ -9,8 +9,16 @@ import pandas as pd
 
 from neural_shadows.metrics.registry import metrics
 from neural_shadows.reports.data.equivalent_maps import equivalent_maps
+from neural_shadows.settings.kinds import PACKAGE
 from neural_shadows.settings.records import MeshReport, Row
 
+CONFIG = PACKAGE.parents[1] / "config"
+# Files of printed numbers, by text.
+PRINTED = {
+    "thesis": CONFIG / "published.csv",
+    "nsm": CONFIG / "published_nsm.csv",
+    "kpnsm": CONFIG / "published_kpnsm.csv",
+}
 OF_ANY_MESH = ("size_kib", "memory_mib")
 
 # What the thesis measures on the scenes of chapter 4: its table, and what its networks are called.

@@ -89,7 +89,7 @@ class SoftFrames:
             medians, wide = np.array(widths).T
             ends = f"{medians.min():.0f} to {medians.max():.0f}"
             parts.append(f"{light} {np.median(medians):.0f} ({ends}) and {np.median(wide):.0f}")
-        return [
+        return parts and [
             "Exact widths of penumbrae in pixels, median and 90th percentile over a scene's penumbra "
             f"pixels, of {len(scenes)} scenes the median (least to most): {'; '.join(parts)}. Wider "
             f"ones count as {record['widest']}."

@@ -111,7 +111,6 @@ def write_table(table: Table, csv: Path, md: Path, json: Path) -> None:
     write_text(md, "\n\n".join(part for part in parts if part) + "\n")
     record = {
         "title": table.title,
-        "lead": table.lead,
         "parted": [*columns][0] in PARTING,
         "columns": [_as_json(heading, column) for heading, column in columns.items()],
         "notes": [*table.notes],

@@ -18,7 +18,7 @@ from neural_shadows.reports.drawing.style import (
 )
 from neural_shadows.sections.any_report import AnyFigure
 from neural_shadows.sections.frame_sets import FrameSetName
-from neural_shadows.sections.own_frames import OwnFrames
+from neural_shadows.sections.frame_tables import check_penumbrae
 from neural_shadows.sections.sections import Sections
 
 PANEL, MOST_COLUMNS = 4.0, 3  # inches of a light's histogram, and histograms in a line
@@ -36,11 +36,7 @@ class Settings(AnyFigure):
     frame_set: FrameSetName = Field(description="a name in `frame_sets`, but `views`")
 
     def check(self, config: Sections, key: str) -> None:
-        if isinstance(config.frame_sets[self.frame_set], OwnFrames):
-            raise ValueError(
-                f"{key}.frame_set: {self.frame_set!r} is of a user's own frames, which have "
-                "no scene. Choose another frame set"
-            )
+        check_penumbrae(config, key, self.frame_set)
 
 
 def draw(first_parts: list[Path], soft_meshes: list[Path], heading: str) -> Figure:

@@ -10,7 +10,9 @@ from pydantic import Field
 from neural_shadows.evaluation.answers import flicker_name, read_answer
 from neural_shadows.reports.drawing.style import Figure, new_figure, note_below
 from neural_shadows.reports.tables import screen_temporal
+from neural_shadows.sections.sections import Sections
 from neural_shadows.sections.table_figures import TableFigure
+from neural_shadows.settings.base import check_among
 
 # As in the paper: purple is stable, gold flickers.
 COLOURS = ["#2d0b59", "#8c2981", "#e69f00", "#fff7bc"]
@@ -24,6 +26,11 @@ class Settings(TableFigure):
     tables = (screen_temporal.Settings,)
     kind: Literal["screen_flicker"] = Field(description="`screen_flicker`")
     methods: list[str] = Field(min_length=1, description="methods of the table")
+
+    def check(self, config: Sections, key: str) -> None:
+        super().check(config, key)
+        for method in self.methods:
+            check_among(f"{key}.methods", method, config.tables[self.table].methods_shown())
 
 
 def draw(

@@ -46,7 +46,7 @@ class Settings(RadiiFigure):
 
     def resolved(self, config: Sections) -> dict[str, Any]:
         frames = config.frame_sets[config.tables[self.table].frame_set]
-        return self.model_dump() | {"radii": self.radii or shown_radii(len(frames.radii))}
+        return self.model_dump() | {"radii": self.radii or shown_radii(frames.radii)}
 
 
 def files(layout: Layout, figure: str) -> dict[str, Any]:

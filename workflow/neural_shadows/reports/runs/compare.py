@@ -35,7 +35,7 @@ FEW = 5  # names that are shown
 # Columns of times and machines, by a word of their name or their whole name.
 _MEASURED = re.compile(
     r"(^|_)(ms|s|seconds|minutes|time|runtime|rate|per_second|rss|ceiling|peer|device|run|repeats)(_|$)"
-    r"|^(ratio|ratio_with_build|share|product_share)$"
+    r"|^(ratio_with_build|share|product_share)$"
 )
 # Repetitions of other numbers: differences from printed ones, and a claim's evidence.
 _REPEATED = re.compile(r"_minus_|^(reason|evidence|number)$")
@@ -138,7 +138,7 @@ def _compare_number(
     pair = old[column], new[column]
     if not any(pair):
         return
-    if _MEASURED.search(column) or _REPEATED.search(column):
+    if _is_measured(column, old) or _REPEATED.search(column):
         verdict = NOT_COMPARED
     elif all(_same(old.get(column + end, ""), new.get(column + end, "")) for end in ("", *_ENDS)):
         verdict = SAME
@@ -149,6 +149,11 @@ def _compare_number(
         place = f"{' '.join(row)}, {column}"
         result.differences.append(Difference(table, place, *pair, _share(*pair)))
     result.counts[verdict] += 1
+
+
+def _is_measured(column: str, row: Row) -> bool:
+    """Whether a column has times or machines; a `ratio` beside times is one of them."""
+    return bool(_MEASURED.search(column)) or (column == "ratio" and any(map(_MEASURED.search, row)))
 
 
 def _same(old: str, new: str) -> bool:

@@ -30,6 +30,8 @@ from neural_shadows.reports.data.table import (
 )
 from neural_shadows.sections.rows import TableByScene
 from neural_shadows.sections.scenes import MeshName
+from neural_shadows.sections.sections import Sections
+from neural_shadows.settings.base import check_among
 from neural_shadows.settings.records import Row, Run, SceneInfo
 
 # Facts of a method beside its quality; empty where they do not apply.
@@ -48,6 +50,11 @@ class Settings(TableByScene):
     against: dict[MeshName, str] = Field(
         {}, description="the row whose paired differences to all others are given, by scene"
     )
+
+    def check(self, config: Sections, key: str) -> None:
+        super().check(config, key)
+        for scene in self.against:
+            check_among(f"{key}.against", scene, self.named_rows(config))
 
 
 def params(layout: Layout, table: str) -> dict[str, Any]:

@@ -9,8 +9,10 @@ import pandas as pd
 from pydantic import Field
 
 from neural_shadows.metrics.intervals import t_interval
+from neural_shadows.reports.data.lights import light_names
 from neural_shadows.reports.data.table import Table, intervals, numbers, with_ends
-from neural_shadows.sections.frame_tables import FramesTable
+from neural_shadows.sections.frame_tables import FramesTable, check_penumbrae
+from neural_shadows.sections.sections import Sections
 
 WIDE = 95  # percentile of widths: the paper chooses the network's levels by it
 
@@ -19,6 +21,10 @@ class Settings(FramesTable):
     """Widths of penumbrae beside those of Neural Shadow Mapping's model (3.6)."""
 
     kind: Literal["penumbra_widths"] = Field(description="`penumbra_widths`")
+
+    def check(self, config: Sections, key: str) -> None:
+        super().check(config, key)
+        check_penumbrae(config, key, self.frame_set)
 
 
 def table(first_parts: list[Path], soft_meshes: list[Path]) -> Table:
@@ -32,8 +38,9 @@ def table(first_parts: list[Path], soft_meshes: list[Path]) -> Table:
     from neural_shadows.evaluation.measured_frames import measured_frames
     from neural_shadows.evaluation.measured_penumbrae import NARROWEST, widths
 
-    pairs = {}
+    pairs, names = {}, []
     for frame in measured_frames(first_parts, soft_meshes):
+        names = light_names(frame.part.about)
         for light, radius in enumerate(frame.part.radii):
             if radius > 0:
                 key = frame.scene_name, light, radius
@@ -41,7 +48,7 @@ def table(first_parts: list[Path], soft_meshes: list[Path]) -> Table:
     table = widths_table(pairs)
     columns = {
         "scene": table["scene"],
-        "light, m": numbers(table["radius"], "{:g}"),
+        "light": [names[light] for light in table["light"]],
         "pixels": numbers(table["pixels"], "{:,.0f}"),
         "measured, px": numbers(table["measured"], "{:.1f}"),
         f"{WIDE} % of them": numbers(table["measured_wide"], "≤ {:.1f}"),

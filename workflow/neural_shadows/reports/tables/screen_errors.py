@@ -134,8 +134,9 @@ def _cells(table: pd.DataFrame, radii: Sequence[float]) -> dict[str, list[str]]:
     keys = ["label", "frames", "learned"]
     rows = []
     for (label, frames, learned), part in table.groupby(keys, sort=False):
-        of_all = part.loc[part["light"] == ALL, "ratio_to_map"]
-        times = number_cells([part["ratio"].mean(), of_all.mean()], "{:.2f}")
+        of_all = part["light"] == ALL
+        means = part.loc[~of_all, "ratio"].mean(), part.loc[of_all, "ratio_to_map"].mean()
+        times = number_cells(means, "{:.2f}")
         for name, (text, factor) in SHOWN.items():
             cells = dict(zip(part["light"], number_cells(part[name], "{:.1f}", factor)))
             texts = [cells.get(light, "") for light in (*map(str, range(len(radii))), ALL)]

@@ -63,6 +63,8 @@ class Step(Model):
 class Settings(FramesTable):
     """From a large screen-space network to a fast one (Datta et al. 2022, 3.5)."""
 
+    shown_in = "steps"
+
     published: Literal["nsm.steps"] | None = Field(
         None, description="`nsm.steps`, the paper's printed numbers"
     )

@@ -12,13 +12,11 @@ from neural_shadows.metrics.registry import metrics
 from neural_shadows.reports.claims import setting_types
 from neural_shadows.reports.claims.comparison import Comparison
 from neural_shadows.reports.claims.measured import Claim, Measured
-from neural_shadows.reports.data.published import read_published
+from neural_shadows.reports.data.published import PRINTED, read_published
 from neural_shadows.sections.any_report import AnyClaim
 from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.base import check_among
-from neural_shadows.settings.kinds import PACKAGE
 
-PUBLISHED_CSV = PACKAGE.parents[1] / "config" / "published.csv"
 MAP = "shadow_map_"
 WITHOUT_RUN = True
 COUNTS_FROM = 2  # times the difference from run to run, of two trainings alone
@@ -48,7 +46,7 @@ class Settings(AnyClaim):
         return self
 
     def check(self, config: Sections, key: str) -> None:
-        printed = read_published(PUBLISHED_CSV).loc[self.table].unstack()
+        printed = read_published(PRINTED["thesis"]).loc[self.table].unstack()
         if self.pairs is None:
             rows = [self.row, shadow_map_key(self.equivalent_to)]
         else:
