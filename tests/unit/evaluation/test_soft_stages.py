@@ -20,6 +20,8 @@ from neural_shadows.evaluation.registry import METHODS
 from neural_shadows.evaluation.time_frames import medians
 from neural_shadows.evaluation.time_methods import time_methods
 from neural_shadows.evaluation.tune import tune as tune_stage
+from neural_shadows.frames import soft_frame
+from neural_shadows.rendering.surface import see_surface
 from neural_shadows.reports.data.soft_costs import describe_times
 
 RADII = FRAMES["radii"]
@@ -183,6 +185,26 @@ def test_all_is_timed_on_the_one_thread_that_tables_name(folder, monkeypatch):
         torch.set_num_threads(before)
     assert seen and set.union(*seen) == {1}
     assert "one thread of" in describe_times(json.loads(out.read_text()))[0]
+
+
+def test_a_method_pays_for_what_it_sees_at_other_places(folder, monkeypatch):
+    """The warm-up's surfaces made four rays at four places a quarter as dear as they are."""
+    calls, traced = [], []
+
+    def answer(frame, radius):
+        calls.append(1)
+        frame.at_places(((0.25, 0.25),))
+        return np.ones(len(frame.from_light), np.float32)
+
+    def see(*arguments):
+        traced.append(1)
+        return see_surface(*arguments)
+
+    monkeypatch.setattr(timing, "open_methods", lambda name, inputs: lambda scene: Method(answer))
+    monkeypatch.setattr(soft_frame, "see_surface", see)
+    out = folder / "places.json"
+    time_methods([folder / "test_000.json"], [], [], [], [], out, methods={"mine": None}, repeats=2)
+    assert len(calls) > 2 and len(traced) == len(calls)
 
 
 def test_a_window_bears_its_share_of_the_map(tmp_path):

@@ -76,3 +76,20 @@ def test_a_ball_that_is_short_or_far_breaks_the_bound_on_that_side(
         # than the shading offset.
         assert found.false_shadow_of_lower == pytest.approx(found.lit_of_lower, abs=2 * rim)
     assert (shown_anywhere > 100).tolist() == [lower, upper]
+
+
+class Dark(Ball):
+    """Depths as they are; all points in shadow by a query of its own, as a field's."""
+
+    def points_lit(self, p, light, dtype):
+        return lambda depth_bias: torch.zeros(len(p), dtype=torch.bool)
+
+
+def test_false_shadows_are_those_of_the_network_s_own_query(tmp_path, monkeypatch):
+    files = make_evaluated(tmp_path, trimesh.creation.icosphere(3, radius=BALL))
+    monkeypatch.setattr(stage, "open_network", lambda *_: (Dark(-0.2), torch.float32))
+    path = tmp_path / "violations.csv"
+    count_violations(files.references, tmp_path / "w", None, files.mesh_ply, path, method="dark")
+    counts = read_metrics([path]).pivot_table("value", ["part", "frame"], "metric")
+    assert (counts["false_shadow_of_lower"] == counts["lit_of_lower"]).all()
+    assert counts["lit_of_lower"].sum() > 100

@@ -4,7 +4,7 @@ import numpy as np
 import trimesh
 from shapes import box, scene_of, sheet
 
-from neural_shadows.rendering.blockers import solids_before
+from neural_shadows.rendering.blockers import blockers, solids_before
 from neural_shadows.rendering.surface import see_surface
 from neural_shadows.scenes.cameras import Camera
 
@@ -46,3 +46,11 @@ def test_none_is_before_what_is_turned_from_the_light():
 def test_what_lies_beyond_the_light_does_not_count():
     scene, surface = seen(moved(box(6, 0.5, 6), 0, 1.5, 0))
     assert not solids_before(scene, surface, np.array([0.0, 1.0, 0.0])).any()
+
+
+def test_a_bare_floor_is_no_blocker_of_a_light_that_reaches_below_it():
+    scene, surface = seen()
+    chosen = np.arange(0, len(surface.p), 7)
+    for height in (0.5, 0.1, 0.05):
+        both = blockers(scene, surface, chosen, np.array([0.0, height, 0.0]), 0.25)
+        assert np.isnan(both).all()

@@ -5,7 +5,12 @@ import pytest
 import trimesh
 from shapes import Y_UP, scene_of, sheet
 
-from neural_shadows.rendering.reprojection import looked_up, projected, seen_before
+from neural_shadows.rendering.reprojection import (
+    history,
+    looked_up,
+    projected,
+    seen_before,
+)
 from neural_shadows.rendering.surface import see_surface
 from neural_shadows.scenes.cameras import Camera
 
@@ -41,6 +46,25 @@ def test_points_are_found_where_they_were_and_hidden_ones_are_not(scene):
         (now.p + 1e-3 * now.n_g).astype(np.float32), to_eye.astype(np.float32)
     )
     assert hidden.any() and accepted[hidden].mean() < 0.2
+
+
+def test_a_filter_keeps_its_own_side_s_history_along_an_edge(scene):
+    """Bilinear where all four pixels show the surface, else of those that do."""
+    before, now = (see_surface(scene, camera(shift), 120, 80) for shift in (0.0, 0.1))
+    accepted, places = seen_before(now, before)
+    images = before.image(before.p).transpose(2, 0, 1)
+    found, values = history(now, before, images)
+    assert (found >= accepted).all() and found.mean() > accepted.mean() + 0.02
+    inside = accepted[found]
+    assert np.allclose(values[0][inside], looked_up(images[0], places[:, accepted]), atol=1e-5)
+    # A pixel's width away at most, and never of the other side: the cube stands 0.25 from the ground's.
+    assert np.abs(values - now.p[found].T).max() < 0.1
+    # Ground that the cube hid is found by its rim alone, within a pixel of what was seen.
+    before, now = (see_surface(scene, camera(shift), 480, 320) for shift in (0.0, 0.4))
+    found, _ = history(now, before, before.image(before.p).transpose(2, 0, 1))
+    to_eye = (before.camera.eye - now.p).astype(np.float32)
+    hidden = scene.tracer.blocked((now.p + 1e-3 * now.n_g).astype(np.float32), to_eye)
+    assert hidden.sum() > 500 and found[hidden].mean() < 0.1
 
 
 def test_a_moved_object_is_looked_up_where_it_was(scene):

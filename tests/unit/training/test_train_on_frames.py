@@ -152,6 +152,18 @@ def test_resumes_and_does_not_depend_on_threads(tmp_path, network, optimiser, pr
     assert [*killed["null_mse"]] == ["no_shadow", "hard_map", *bases]
 
 
+@pytest.mark.parametrize("network", [KERNELS, EXPONENT])
+def test_a_batch_that_is_lit_everywhere_is_no_divergence(tmp_path, network):
+    """Whatever the weights, a filter of what is lit is lit."""
+    part = write_frames(tmp_path)
+    file = part.with_suffix(".buffers.npy")
+    buffers = np.load(file)
+    buffers[:, :, [CHANNELS.index(name) for name in ("hard", "pcf", "msm")]] = 1
+    buffers[:, :, CHANNELS.index("gap")] = 0
+    np.save(file, buffers)
+    assert run(tmp_path, part, network=network)["died_at_step"] is None
+
+
 def test_frames_written_anew_are_trained_on_anew(tmp_path):
     """The checkpoint of an interrupted training is of others, if below the same description."""
     part = write_frames(tmp_path)

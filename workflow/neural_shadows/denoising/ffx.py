@@ -13,7 +13,9 @@ from neural_shadows.denoising.history import History
 from neural_shadows.denoising.mixed_blocks import SIDE, Neighbourhoods
 from neural_shadows.rendering.surface import Surface
 
-SIGMA = 4.0  # standard deviations a visibility may differ; 1 in print: twice the error at one ray
+# Standard deviations a visibility may differ. In print 1, of a variance that is larger at first: `_BOOST`
+# is 16 there.
+SIGMA = 4.0
 # Of a pixel's own depth, by how much another's may differ: of 0.01 to 1 the least error off edges.
 SIGMA_DEPTH = np.float32(0.02)
 STEPS = (1, 2, 4)  # pixels between the taps of each pass

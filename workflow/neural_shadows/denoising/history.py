@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from neural_shadows.rendering.reprojection import looked_up, seen_before
+from neural_shadows.rendering.reprojection import history
 from neural_shadows.rendering.surface import Surface
 
 
@@ -27,10 +27,8 @@ class History:
         """
         if self._images is None:
             return np.empty(0, np.int64), np.empty((count, 0), np.float32)
-        accepted, places = seen_before(surface, self._surface, was)
-        places = places[:, accepted]
-        values = np.stack([looked_up(image, places) for image in self._images])
-        return surface.pixel[accepted], values
+        found, values = history(surface, self._surface, self._images, was)
+        return surface.pixel[found], values
 
     def keep(self, surface: Surface, images: np.ndarray) -> None:
         """Store a frame's images (count, H, W) float32."""

@@ -53,7 +53,8 @@ def count_violations(
             p, light = on_device(frame.p, frame.view.light, network.device)
             rays = sphere_rays(p, light)
             t_pred = network.depths(rays.origins, -light, dtype)
-            lit = network.lit(rays, -light, dtype, t_pred)(depth_bias).cpu().numpy()
+            # As methods answer it: a field's query is another than its depths.
+            lit = network.points_lit(p, light, dtype)(depth_bias)[rays.index].cpu().numpy()
             t = (t_pred + depth_bias).cpu().numpy()
             bounds = dual_bounds(tracer, rays.origins.cpu().numpy(), -light.cpu().numpy())
             true = truth[frame.lit_side][rays.index.cpu().numpy()]

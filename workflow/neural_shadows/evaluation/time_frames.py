@@ -72,7 +72,7 @@ def times(
             for k in radii:
                 radius = measured.part.radii[k]
                 works = {
-                    name: partial(visibility, method, frame, radius, chosen[name][k])
+                    name: partial(_answer, method, frame, radius, chosen[name][k])
                     for name, method in timed.items()
                     if method.changes_at(chosen[name], k)
                 }
@@ -132,6 +132,15 @@ def _prepared(frame: SoftFrame) -> SoftFrame:
     for name in ("from_light", "cosines", "bias", "starts", "depths"):
         getattr(frame, name)
     return frame
+
+
+def _answer(
+    method: Method, frame: SoftFrame, radius: float, constants: Mapping[str, float]
+) -> np.ndarray:
+    """A method's answer, without the surfaces that it saw before at other places in the pixels."""
+    anew = replace(frame)
+    vars(anew).update({k: v for k, v in vars(frame).items() if k != "_by_places"})
+    return visibility(method, anew, radius, constants)
 
 
 def _rasterised(frame: SoftFrame) -> np.ndarray:

@@ -168,7 +168,8 @@ def _students(
     """
     variance = np.asarray(sum(part for part, _ in parts))
     if not np.isfinite(variance).all():
-        return float(value), -np.inf, np.inf, 1.0
+        unknown = [np.full(np.shape(value), number) for number in (-np.inf, np.inf, 1.0)]
+        return (value, *unknown) if np.ndim(value) else (float(value), *map(float, unknown))
     positive = np.where(variance > 0, variance, 1.0)
     freedom = positive**2 / sum((part**2 + (variance <= 0)) / degrees for part, degrees in parts)
     half = scipy.stats.t.ppf((1 + LEVEL) / 2, freedom) * np.sqrt(variance)

@@ -32,12 +32,14 @@ def blockers(
     shape.ring_vectors(
         starts, surface.pixel[chosen], 0, centre, np.array([radius]), counts, to_light
     )
+    # As in the reference, only above the surface's plane: below it a ray meets the surface itself.
+    above = np.einsum("ijk,ik->ij", to_light, surface.n_g[chosen]) > 0
     to_light = to_light.reshape(-1, 3)
     on_light = np.repeat(starts, RAYS, axis=0) + to_light
     share, _ = scene.tracer.first_hit(on_light, -to_light)
     # Of the distance, but of a sun's that in the scene.
     ignored = 1e-3 * min(1.0, 4 * scene.size / np.linalg.norm(centre - scene.ball[0]))
-    blocked = (share < np.float32(1 - ignored)).reshape(-1, RAYS)
+    blocked = (share < np.float32(1 - ignored)).reshape(-1, RAYS) & above
     hits = on_light - np.minimum(share, 1)[:, None] * to_light
     distances = np.linalg.norm(hits - centre, axis=1).reshape(-1, RAYS)
     nearest = np.where(blocked, distances, np.inf).min(1)

@@ -8,6 +8,7 @@ from neural_shadows.scenes.cameras import Window, camera_axes
 
 DEPTH_SHARE, NORMAL_DISTANCE = 0.02, 0.4  # thresholds of another surface
 LEAST_WEIGHT = 1e-3  # least weight of a pixel that must agree
+LEAST_HISTORY = 0.01  # least weight of the pixels that show a point
 
 
 def projected(camera, width: int, height: int, points: np.ndarray) -> np.ndarray:
@@ -45,26 +46,63 @@ def seen_before(
         accepted (n,) bool, and column and row in the frame before, (2, n).
     """
     points = surface.p if was is None else was
-    width, height = before.width, before.height
-    column, row, depth = projected(before.camera, width, height, points)
+    column, row, depth = projected(before.camera, before.width, before.height, points)
+    _, weights, same = _corners(surface, before, column, row, depth)
+    accepted = _inside(before, column, row, depth)
+    accepted &= (same | (weights < LEAST_WEIGHT)).all(axis=0)
+    return accepted, np.stack([column, row])
+
+
+def history(
+    surface: Surface, before: Surface, images: np.ndarray, was: np.ndarray | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Look up images of the previous frame where it shows a frame's points.
+
+    Bilinear over those of the four pixels that show the point's surface, see `seen_before`, as
+    temporal filters do it (Schied et al. 2017, 4.1): along an edge, where `seen_before` accepts
+    nothing, a filter keeps the history of its own side.
+
+    Args:
+        images: (k, H, W) float32, of the previous frame. was: see `seen_before`.
+
+    Returns:
+        found (n,) bool, and values of the points found, (k, m) float32.
+    """
+    points = surface.p if was is None else was
+    column, row, depth = projected(before.camera, before.width, before.height, points)
+    pixels, weights, same = _corners(surface, before, column, row, depth)
+    weights = np.where(same, weights, 0)
+    total = weights.sum(axis=0)
+    found = _inside(before, column, row, depth) & (total >= LEAST_HISTORY)
+    shares = weights[:, found] / total[found]
+    corners = images.reshape(len(images), -1)[:, pixels[:, found]]
+    return found, np.einsum("kcm,cm->km", corners, shares).astype(np.float32)
+
+
+def _inside(before: Surface, column: np.ndarray, row: np.ndarray, depth: np.ndarray) -> np.ndarray:
+    """Which places are within the image and before the camera, (n,) bool."""
     near = LEAST_WEIGHT  # rounding must not drop a rim
     inside = (depth > 0) & (column >= -near) & (row >= -near)
-    inside &= (column <= width - 1 + near) & (row <= height - 1 + near)
-    accepted = inside.copy()
-    c = np.clip(np.nan_to_num(np.floor(column)), 0, width - 2).astype(np.int64)
-    r = np.clip(np.nan_to_num(np.floor(row)), 0, height - 2).astype(np.int64)
-    depths = before.image(projected(before.camera, width, height, before.p)[2])
-    normals = before.image(before.n_g)
+    return inside & (column <= before.width - 1 + near) & (row <= before.height - 1 + near)
+
+
+def _corners(
+    surface: Surface, before: Surface, column: np.ndarray, row: np.ndarray, depth: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The four pixels about each place: numbers, bilinear weights, and which show its surface, (4, n)."""
+    width, height = before.width, before.height
+    c = np.clip(np.nan_to_num(np.floor(column)), 0, max(width - 2, 0)).astype(np.int64)
+    r = np.clip(np.nan_to_num(np.floor(row)), 0, max(height - 2, 0)).astype(np.int64)
+    depths = before.image(projected(before.camera, width, height, before.p)[2]).ravel()
+    normals = before.image(before.n_g).reshape(-1, 3)
     x, y = column - c, row - r
-    for down in (0, 1):
-        for along in (0, 1):
-            weight = np.abs(1 - along - x) * np.abs(1 - down - y)
-            other = depths[r + down, c + along]
-            same = np.abs(other - depth) <= DEPTH_SHARE * np.abs(depth)
-            difference = normals[r + down, c + along] - surface.n_g
-            same &= np.linalg.norm(difference, axis=1) <= NORMAL_DISTANCE
-            accepted &= same | (weight < LEAST_WEIGHT)
-    return accepted, np.stack([column, row])
+    steps = [(down, along) for down in (0, 1) for along in (0, 1)]
+    weights = np.stack([np.abs(1 - along - x) * np.abs(1 - down - y) for down, along in steps])
+    rows = np.stack([np.minimum(r + down, height - 1) for down, _ in steps])
+    pixels = rows * width + np.stack([np.minimum(c + along, width - 1) for _, along in steps])
+    same = np.abs(depths[pixels] - depth) <= DEPTH_SHARE * np.abs(depth)
+    same &= np.linalg.norm(normals[pixels] - surface.n_g, axis=2) <= NORMAL_DISTANCE
+    return pixels, weights, same
 
 
 def looked_up(image: np.ndarray, places: np.ndarray) -> np.ndarray:

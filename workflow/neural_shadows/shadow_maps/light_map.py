@@ -75,7 +75,8 @@ class LightMap:
     def texel_size(self, directions: np.ndarray) -> np.ndarray:
         """A texel's side at distance 1, across a direction (n, 3): (n,) float32.
 
-        At a face's corner it is smaller than in its middle: the mean of both sides there.
+        Off a face's middle it is smaller: at a cube's edge 0.71 of it, the longer of the texel's sides, at
+        its corner 0.58, where both sides are 0.47.
         """
         along = np.max(np.einsum("fk,nk->nf", self.faces[:, 2], directions), axis=1)
         return (2 * self.half / self.resolution * np.maximum(along, 1e-3)).astype(np.float32)

@@ -100,7 +100,7 @@ def exponential_visibility(moments: np.ndarray, depth: np.ndarray) -> np.ndarray
     bounds = []
     for k, constant in ((0, POSITIVE), (2, NEGATIVE)):
         mean, behind = moments[:, k], np.maximum(goal[:, k] - moments[:, k], 0)
-        # Change of the warped depth for 1e-4 of depth.
+        # Change of the warped depth, of −1 to 1, for 5e-5 of the map's range.
         least = (1e-4 * constant * goal[:, k]) ** 2
         variance = np.maximum(moments[:, k + 1] - mean**2, least)
         bounds.append(variance / (variance + behind**2))

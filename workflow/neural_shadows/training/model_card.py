@@ -80,7 +80,7 @@ def model_card(weights: Path) -> str:
         machine=header["machine"]["gpu"] or header["machine"]["cpu"],
         errors=_errors(header, lights, weights),
         shape=f"a {(header['light'] or {}).get('shape', 'sphere')}",
-        largest=max(radii[light] for light in lights),
+        largest=max(radii),
         unit=_words(header["radius_unit"]),
         frames="frames rendered here; frames of your own have no rays"
         if traced
@@ -100,7 +100,8 @@ def _frames(count: Mapping[str, int]) -> str:
 def _errors(header: Mapping[str, Any], lights: Sequence[int], weights: Path) -> str:
     """Errors by radius: the network's, its base's (or the hard map's), no shadow's."""
     nulls = header["null_mse"]
-    bases = [name for name in nulls if name not in ("no_shadow", "hard_map")] or ["hard_map"]
+    bases = [name for name in nulls if name not in ("no_shadow", "hard_map")]
+    bases = bases or [name for name in nulls if name == "hard_map"]
     errors = {"this network": header["validation_mse"], **{name: nulls[name] for name in bases}}
     errors["no shadow"] = nulls["no_shadow"]
     if None in (errors["this network"][light] for light in lights):

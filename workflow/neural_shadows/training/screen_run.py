@@ -1,5 +1,6 @@
 """Step of a screen-space network's training."""
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from pathlib import Path
@@ -97,6 +98,8 @@ class ScreenRun(TrainingState):
         compute = self._compute(pool)
         results, statistics = zip(*compute(gradients, chunks))
         self.change_weights(*zip(*results), compute)
+        if self.network.of_its_base:  # crops that are lit everywhere are no divergence
+            self.spread.fill_(math.inf)
         if self._has_norms:
             self.network.update_norms(statistics)
         self._round_weights()

@@ -102,23 +102,17 @@ class ShadowNetwork(nn.Module, ABC):
             chunks = origins.split(self.query_chunks[self.device.type])
             return torch.cat([self(chunk, d.expand(len(chunk), 3), dtype) for chunk in chunks])
 
-    def lit(
-        self, rays: SphereRays, d: Tensor, dtype: torch.dtype, t_pred: Tensor | None = None
-    ) -> Callable[[float], Tensor]:
+    def lit(self, rays: SphereRays, d: Tensor, dtype: torch.dtype) -> Callable[[float], Tensor]:
         """Test points at rays' ends along d (3,) by depth bias [3.6.2].
 
         shadowed ⟺ min(s, ℓ) > t_pred(o, d) + depth_bias. The clamp of s to the chord ℓ is
         essential: misses are only ever trained to t ≥ ℓ, so that without it every receiver behind
         the sphere would be in shadow.
 
-        Args:
-            t_pred: `depths` of these rays, if already predicted.
-
         Returns:
             a function from the depth bias, in sphere radii, to (k,) bool.
         """
-        if t_pred is None:
-            t_pred = self.depths(rays.origins, d, dtype)
+        t_pred = self.depths(rays.origins, d, dtype)
         s = torch.minimum(rays.s, rays.chord)
         return lambda depth_bias: s <= t_pred + depth_bias
 

@@ -24,6 +24,8 @@ class ExponentUnet(ShadowUnet):
         features: see `ShadowUnet`; with `behind`.
     """
 
+    of_its_base = True
+
     def __init__(self, form: str, widths: Sequence, features: Sequence[str], **settings):
         super().__init__(form, widths, features, **settings)
         self._behind = channels_of(features[: features.index(BEHIND)])

@@ -65,7 +65,8 @@ class KernelUnet(ScreenNetwork):
         self.form, self.features, self.filters = form, tuple(features), filters
         channels = [FEATURES[name] for name in self.features]
         layers = kernel_convolutions(form, widths, sum(channels), filters, ends)
-        if form == "kernels":
+        self.of_its_base = form == "kernels"
+        if self.of_its_base:
             base = self.features.index(base_of(self.features))
             self._base = sum(channels[:base])  # index of its plane
             guide = base if edge is None else self.features.index(GUIDE)

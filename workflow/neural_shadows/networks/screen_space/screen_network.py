@@ -18,6 +18,7 @@ class ScreenNetwork(nn.Module, ABC):
 
     features: tuple[str, ...]  # names in FEATURES; their channels are the planes, in this order
     reach = 1  # of kernels, in pixels of a side
+    of_its_base = False  # whether a constant base makes a constant output, whatever the weights
 
     @abstractmethod
     def initialise(self, seed: int) -> None:

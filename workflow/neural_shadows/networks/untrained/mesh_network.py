@@ -62,9 +62,7 @@ class MeshNetwork(UntrainedNetwork):
         t, _ = self._tracer.first_hit(origins.contiguous().numpy(), directions.contiguous().numpy())
         return torch.from_numpy(np.minimum(t, np.float32(LIT)))
 
-    def lit(
-        self, rays: SphereRays, d: Tensor, dtype: torch.dtype, t_pred: Tensor | None = None
-    ) -> Callable[[float], Tensor]:
+    def lit(self, rays: SphereRays, d: Tensor, dtype: torch.dtype) -> Callable[[float], Tensor]:
         """See `ShadowNetwork.lit`: free rays from points to the light.
 
         The depth bias moves the point towards the light.
