@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit
 
 from neural_shadows.frames.soft_frame import SoftFrame
-from neural_shadows.rendering.soft_shadows import PLACES
+from neural_shadows.rendering.soft_shadows import PLACES, free_shares
 from neural_shadows.scenes.tracing import NEARLY_ALL
 
 _CHUNK = 1 << 16  # at once: 1.6 MB of them stay in a core's cache
@@ -73,7 +73,7 @@ def ray_traced_penumbrae(
         free = tracer.free_shares(origins.reshape(-1, 3), to_light.reshape(-1, 3))
         free = free.reshape(to_light.shape[:2])
         blocked = free < np.float32(NEARLY_ALL)
-        visibility[part] = _share_free(blocked, to_light, normals[part])
+        visibility[part] = free_shares(blocked, to_light, normals[part])
         penumbra[part] = _mean_penumbra(blocked, free, to_light, normals[part], radius)
     return visibility, penumbra
 
@@ -122,22 +122,7 @@ def _rays(
 def _shares(blocked: Blocked, starts: np.ndarray, to_light: np.ndarray, normals: np.ndarray):
     """Share of each point's rays (n, samples, 3) unblocked: (n,) float32."""
     hit = blocked(starts.reshape(-1, 3), to_light.reshape(-1, 3))
-    return _share_free(hit.reshape(to_light.shape[:2]), to_light, normals)
-
-
-@njit(cache=True, nogil=True)
-def _share_free(blocked, to_light, normals):
-    """Free shares; as in the reference, only above the surface's plane."""
-    points, samples = blocked.shape
-    shares = np.empty(points, np.float32)
-    for i in range(points):
-        x, y, z = normals[i, 0], normals[i, 1], normals[i, 2]
-        free = 0
-        for k in range(samples):
-            u, v, w = to_light[i, k, 0], to_light[i, k, 1], to_light[i, k, 2]
-            free += x * u + y * v + z * w > 0 and not blocked[i, k]
-        shares[i] = free / samples
-    return shares
+    return free_shares(hit.reshape(to_light.shape[:2]), to_light, normals)
 
 
 def spread(frame: SoftFrame, radius: float, *, samples: int) -> np.ndarray:

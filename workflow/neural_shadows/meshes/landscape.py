@@ -6,6 +6,8 @@ with steep, rounded sides.
 
 import numpy as np
 
+from neural_shadows.meshes.height_grid import height_grid
+
 SEED = 7  # of positions, sizes and heights
 PLATEAUS = 12
 HILLS = 10
@@ -27,11 +29,7 @@ def make_landscape(*, cells: int) -> tuple[np.ndarray, np.ndarray]:
     """
     side = np.linspace(-1, 1, cells + 1)
     x, z = np.meshgrid(side, side, indexing="ij")
-    vertices = np.stack([x, _heights(x, z), z], axis=-1).reshape(-1, 3)
-    corner = np.arange((cells + 1) ** 2).reshape(cells + 1, cells + 1)
-    a, b, c, d = corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]
-    faces = np.stack([a, d, b, b, d, c], axis=-1).reshape(-1, 3)
-    return vertices, faces
+    return height_grid(x, _heights(x, z), z)
 
 
 def _heights(x: np.ndarray, z: np.ndarray) -> np.ndarray:

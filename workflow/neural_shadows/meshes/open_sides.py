@@ -48,6 +48,7 @@ def _drawn(
     area = np.linalg.norm(across, axis=1)
     sums = np.cumsum(area, dtype=np.float64)
     face = np.searchsorted(sums, rng.random(_POINTS) * sums[-1], side="right")
+    face = np.minimum(face, len(sums) - 1)  # a product may round up to the sum of all
     u, v = rng.random((2, _POINTS, 1))
     u, v = np.where(u + v > 1, 1 - u, u), np.where(u + v > 1, 1 - v, v)
     points = a[face] + u * (b - a)[face] + v * (c - a)[face]

@@ -9,6 +9,8 @@ import numpy as np
 from numba import njit
 from scipy import ndimage
 
+from neural_shadows.meshes.height_grid import height_grid
+
 SIDE = 3000.0
 HIGHEST = 750.0
 # The eroded grid: cells along a side at first, and steps of erosion, by how often they are halved. Large
@@ -33,11 +35,7 @@ def make_terrain(*, cells: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
     heights = _land(rng, cells + 1) + _boulders(rng, side)
     heights += rng.normal(0, NOISE, heights.shape)
     x, z = np.meshgrid(side, side, indexing="ij")
-    vertices = np.stack([x, heights, z], axis=-1).reshape(-1, 3)
-    corner = np.arange((cells + 1) ** 2).reshape(cells + 1, cells + 1)
-    a, b, c, d = corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]
-    faces = np.stack([a, d, b, b, d, c], axis=-1).reshape(-1, 3)
-    return vertices, faces
+    return height_grid(x, heights, z)
 
 
 def _land(rng: np.random.Generator, count: int) -> np.ndarray:

@@ -184,20 +184,23 @@ class _Place:
     def _seen(self, starts, to_light, normals, count: int) -> np.ndarray:
         """Share of `count` rays of each point that are free on its seen side, (n,) float32."""
         blocked = self.scene.tracer.blocked(starts, to_light)
-        return _free_shares(blocked, to_light, normals, count)
+        return free_shares(blocked.reshape(-1, count), to_light.reshape(-1, count, 3), normals)
 
 
 @njit(cache=True, nogil=True)
-def _free_shares(blocked, to_light, normals, count):
-    shares = np.empty(len(normals), np.float32)
-    for i in range(len(normals)):
+def free_shares(blocked, to_light, normals):
+    """Share of each point's rays (n, samples) that is free and above the surface's plane, (n,) float32.
+
+    Args:
+        to_light: (n, samples, 3); normals: (n, 3).
+    """
+    points, samples = blocked.shape
+    shares = np.empty(points, np.float32)
+    for i in range(points):
+        x, y, z = normals[i, 0], normals[i, 1], normals[i, 2]
         free = 0
-        for ray in range(i * count, (i + 1) * count):
-            cosine = (
-                normals[i, 0] * to_light[ray, 0]
-                + normals[i, 1] * to_light[ray, 1]
-                + normals[i, 2] * to_light[ray, 2]
-            )
-            free += cosine > 0 and not blocked[ray]
-        shares[i] = np.float32(free) / np.float32(count)
+        for k in range(samples):
+            u, v, w = to_light[i, k, 0], to_light[i, k, 1], to_light[i, k, 2]
+            free += x * u + y * v + z * w > 0 and not blocked[i, k]
+        shares[i] = free / samples
     return shares
