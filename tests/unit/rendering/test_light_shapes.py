@@ -8,7 +8,7 @@ from checkout import ROOT
 from half_planes import CENTRE, visible
 
 from neural_shadows.rendering import light_shapes
-from neural_shadows.rendering.light_samples import ring_vectors
+from neural_shadows.rendering.light_samples import random_shifts, ring_vectors
 from neural_shadows.rendering.light_shape import SPHERE, light_shape
 from neural_shadows.rendering.light_shapes.sun import DISTANCE
 
@@ -57,7 +57,9 @@ def test_samples_of_a_rectangle_are_uniform():
     radii, count = np.array([0.1, 0.2, 0.4]), 4096
     to_light = np.empty((2, 3 * count, 3), np.float32)
     points = np.array([[0, 0, 0], [3, 1, -2]], np.float32)
-    PANEL.ring_vectors(points, np.array([7, 8]), 0, CENTRE, radii, np.full(3, count), to_light)
+    PANEL.ring_vectors(
+        points, random_shifts(np.array([7, 8]), 3), 0, CENTRE, radii, np.full(3, count), to_light
+    )
     on_light = (to_light + points[:, None] - CENTRE).astype(float)
     assert np.abs(on_light[..., 1]).max() < 1e-6  # in its plane, from any point
     half = np.array([1.0, 0.4]) / PANEL.radius_of(1, "metres", 1.0)
@@ -74,7 +76,13 @@ def test_samples_of_a_rectangle_are_uniform():
     # Cells of equal area of the whole: a chi-square far below that of independent samples (63).
     to_light = np.empty((1, count, 3), np.float32)
     PANEL.ring_vectors(
-        points[:1], np.array([9]), 0, CENTRE, np.array([0.4]), np.array([count]), to_light
+        points[:1],
+        random_shifts(np.array([9]), 1),
+        0,
+        CENTRE,
+        np.array([0.4]),
+        np.array([count]),
+        to_light,
     )
     samples = (to_light[0] - CENTRE)[:, [0, 2]] / half / 0.4
     cells, _, _ = np.histogram2d(*samples.T, bins=8, range=[[-1, 1]] * 2)
@@ -92,7 +100,13 @@ def along_rim(places):
 
 def test_a_sphere_is_the_default():
     """Its samples are those of `ring_vectors`, to the bit."""
-    arguments = np.ones((5, 3), np.float32), np.arange(5), 3, CENTRE, np.array([0.1, 0.3])
+    arguments = (
+        np.ones((5, 3), np.float32),
+        random_shifts(np.arange(5), 2),
+        3,
+        CENTRE,
+        np.array([0.1, 0.3]),
+    )
     expected, vectors = np.empty((2, 5, 8, 3), np.float32)
     ring_vectors(*arguments, np.array([4, 4]), expected)
     for shape in (SPHERE, light_shape(None), light_shape({"shape": "sphere"})):

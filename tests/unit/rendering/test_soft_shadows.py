@@ -6,7 +6,12 @@ import trimesh
 from half_planes import CENTRE, down, half_plane, joined, share_seen, visible
 from shapes import Y_UP, sheet
 
-from neural_shadows.rendering.light_samples import ring_shares, ring_vectors
+from neural_shadows.rendering.light_samples import (
+    even_shifts,
+    random_shifts,
+    ring_shares,
+    ring_vectors,
+)
 from neural_shadows.rendering.soft_shadows import soft_visibility
 from neural_shadows.scenes.cameras import Camera
 
@@ -64,6 +69,18 @@ def test_few_rays_where_neighbours_agree():
         assert np.all(small[large == 0] == 0) and (large == 0).sum() < (small == 0).sum()
 
 
+def test_even_shifts_fill_the_square_evenly_within_any_block():
+    """16 × 16 pixels' turns, and shares, are off equal steps by 0.02; independent ones by 0.05."""
+    rows, columns = np.indices((64, 64)).reshape(2, -1)
+    shifts = even_shifts(columns, rows)[:, 0].reshape(64, 64, 2)
+    assert shifts.min() >= 0 and shifts.max() < 1
+    for row, column in ((0, 0), (7, 30), (48, 48)):
+        block = shifts[row : row + 16, column : column + 16].reshape(-1, 2)
+        for shift in np.sort(block, axis=0).T:
+            assert np.abs(shift - (np.arange(256) + 0.5) / 256).max() < 0.025
+        assert abs(np.corrcoef(block.T)[0, 1]) < 0.1
+
+
 def test_rings_add_up_to_the_disc():
     radii = np.array([0.1, 0.2, 0.4])
     shares = ring_shares(radii)
@@ -71,7 +88,7 @@ def test_rings_add_up_to_the_disc():
     assert np.allclose(shares[2], np.array([1, 3, 12]) / 16)
     points, count = np.zeros((1, 3), np.float32), np.full(3, 4096)
     to_light = np.empty((1, count.sum(), 3), np.float32)
-    ring_vectors(points, np.array([7]), 0, CENTRE, radii, count, to_light)
+    ring_vectors(points, random_shifts(np.array([7]), 3), 0, CENTRE, radii, count, to_light)
     away = (to_light[0] - CENTRE).astype(float)
     assert np.abs(away[:, 1]).max() < 1e-6  # across the way to the centre
     radius = np.hypot(away[:, 0], away[:, 2]).reshape(3, -1)

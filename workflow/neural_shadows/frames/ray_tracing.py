@@ -6,6 +6,7 @@ import numpy as np
 from numba import njit
 
 from neural_shadows.frames.soft_frame import SoftFrame
+from neural_shadows.rendering.light_samples import even_shifts, random_shifts
 from neural_shadows.rendering.soft_shadows import PLACES, free_shares
 from neural_shadows.scenes.tracing import NEARLY_ALL
 
@@ -29,11 +30,12 @@ def ray_traced(
     samples: int,
     starts: np.ndarray | None = None,
     blocked: Blocked | None = None,
+    even: bool = False,
 ) -> np.ndarray:
     """Share of a pixel's unblocked rays, (n,) float32.
 
     On one thread. The rays of a pixel go to a low-discrepancy set of its own on the light, as of a
-    sphere on the disc that it is from there, so that pixels' errors are independent and 0 on average.
+    sphere on the disc that it is from there.
 
     Args:
         radius: of the light, in the scene's unit; 0 is a point, to which one ray goes.
@@ -41,6 +43,8 @@ def ray_traced(
         starts: of the rays, (n, 3) float32; without them the frame's.
         blocked: of points (m, 3) and vectors (m, 3) from them to the light, the mask of blocked rays,
             (m,) bool; without it by the scene's triangles.
+        even: neighbours' rays are spread evenly over the light, as filters are fed; else pixels' errors
+            are independent.
     """
     starts = frame.starts if starts is None else starts
     blocked, normals = blocked or frame.scene.tracer.blocked, frame.surface.n_g
@@ -48,20 +52,20 @@ def ray_traced(
         to_light = frame.centre.astype(np.float32) - starts
         return _shares(blocked, starts, to_light[:, None], normals)
     visibility = np.empty(len(starts), np.float32)
-    for part, origins, to_light in _rays(frame, radius, samples, starts):
+    for part, origins, to_light in _rays(frame, radius, samples, starts, even):
         visibility[part] = _shares(blocked, origins, to_light, normals[part])
     return visibility
 
 
 def ray_traced_penumbrae(
-    frame: SoftFrame, radius: float, *, samples: int
+    frame: SoftFrame, radius: float, *, samples: int, even: bool = False
 ) -> tuple[np.ndarray, np.ndarray]:
     """Share of free rays by first hits, and penumbrae's radii.
 
     Distances took 1.2 times as long as occlusion tests.
 
     Args:
-        radius, samples: see `ray_traced`; the radius is above 0.
+        radius, samples, even: see `ray_traced`; the radius is above 0.
 
     Returns:
         visibility (n,) float32, and the mean radius of the penumbrae of a pixel's blockers, (n,)
@@ -69,7 +73,7 @@ def ray_traced_penumbrae(
     """
     starts, normals, tracer = frame.starts, frame.surface.n_g, frame.scene.tracer
     visibility, penumbra = np.empty((2, len(starts)), np.float32)
-    for part, origins, to_light in _rays(frame, radius, samples, starts):
+    for part, origins, to_light in _rays(frame, radius, samples, starts, even):
         free = tracer.free_shares(origins.reshape(-1, 3), to_light.reshape(-1, 3))
         free = free.reshape(to_light.shape[:2])
         blocked = free < np.float32(NEARLY_ALL)
@@ -99,14 +103,17 @@ def traced_images(
 
 
 def _rays(
-    frame: SoftFrame, radius: float, samples: int, starts: np.ndarray
+    frame: SoftFrame, radius: float, samples: int, starts: np.ndarray, even: bool
 ) -> Iterator[tuple[slice, np.ndarray, np.ndarray]]:
     """Slices of the points, rays' origins, vectors to the light.
 
     (part, samples, 3) each, overwritten by those of the next part.
     """
-    # Other random numbers than the exact shadow's, to keep errors independent.
-    keys, drawn = frame.surface.pixel + _SALT, frame.number * samples
+    if even:
+        shifts = even_shifts(*np.divmod(frame.surface.pixel, frame.surface.width)[::-1])
+    else:  # other random numbers than the exact shadow's, to keep errors independent
+        shifts = random_shifts(frame.surface.pixel + _SALT, 1)
+    drawn = frame.number * samples
     radii, counts = np.array([radius], np.float64), np.array([samples], np.int64)
     size = max(1, _CHUNK // samples)
     to_light, origins = (np.empty((size, samples, 3), np.float32) for _ in range(2))
@@ -114,7 +121,7 @@ def _rays(
         part = slice(begin, begin + size)
         points = starts[part]
         vectors, ray_origins = to_light[: len(points)], origins[: len(points)]
-        frame.shape.ring_vectors(points, keys[part], drawn, frame.centre, radii, counts, vectors)
+        frame.shape.ring_vectors(points, shifts[part], drawn, frame.centre, radii, counts, vectors)
         ray_origins[:] = points[:, None]
         yield part, ray_origins, vectors
 

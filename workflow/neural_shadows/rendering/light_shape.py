@@ -83,7 +83,7 @@ class LightShape(Model):
     def ring_vectors(
         self,
         points: np.ndarray,
-        keys: np.ndarray,
+        shifts: np.ndarray,
         first: int,
         centre: np.ndarray,
         radii: np.ndarray,
@@ -98,10 +98,10 @@ class LightShape(Model):
 
         corners = self.corners()
         if corners is None:
-            ring_vectors(points, keys, first, centre, radii, counts, vectors)
+            ring_vectors(points, shifts, first, centre, radii, counts, vectors)
         else:
             corners = corners / self._radius_of_one()
-            polygon_vectors(points, keys, first, centre, corners, radii, counts, vectors)
+            polygon_vectors(points, shifts, first, centre, corners, radii, counts, vectors)
 
 
 SPHERE = LightShape(shape="sphere")

@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit
 from scipy.ndimage import maximum_filter, minimum_filter
 
-from neural_shadows.rendering.light_samples import ring_shares
+from neural_shadows.rendering.light_samples import random_shifts, ring_shares
 from neural_shadows.rendering.light_shape import SPHERE, LightShape
 from neural_shadows.rendering.surface import Surface, see_surface
 from neural_shadows.scenes.cameras import Camera
@@ -169,8 +169,10 @@ class _Place:
             part = points[begin : begin + size]
             start = np.take(self.start, part, axis=0)
             vectors, origins = to_light[: len(part)], starts[: len(part)]
-            keys, first = self.surface.pixel[part], self.index * samples
-            self.shape.ring_vectors(start, keys, first, self.centre, self.rings, counts, vectors)
+            shifts = random_shifts(self.surface.pixel[part], len(self.rings))
+            self.shape.ring_vectors(
+                start, shifts, self.index * samples, self.centre, self.rings, counts, vectors
+            )
             origins[:] = start[:, None]
             normals = np.take(self.surface.n_g, part, axis=0)
             rays = origins.reshape(-1, 3), vectors.reshape(-1, 3)

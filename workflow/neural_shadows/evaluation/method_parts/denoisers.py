@@ -38,8 +38,8 @@ class Denoiser:
         """Images of a frame's rays, for the filter."""
         surface = frame.surface
         if not self.distances:
-            return (surface.image(ray_traced(frame, radius, samples=samples), 1.0),)
-        visibility, penumbra = ray_traced_penumbrae(frame, radius, samples=samples)
+            return (surface.image(ray_traced(frame, radius, samples=samples, even=True), 1.0),)
+        visibility, penumbra = ray_traced_penumbrae(frame, radius, samples=samples, even=True)
         return surface.image(visibility, 1.0), surface.image(penumbra, -1.0)
 
 
