@@ -183,16 +183,17 @@ def describe_biases(rows: Sequence[Row], biases: Mapping[tuple[str, str], DepthB
     return sentences
 
 
-def describe_lpips(lpips: Lpips) -> str:
-    """Describe LPIPS's network, or how to install a missing one."""
+def describe_lpips(lpips: Lpips, beside_flip: bool = True) -> str:
+    """Describe LPIPS's network, or how to install a missing one; `beside_flip`: the table has FLIP, too."""
     if lpips["available"]:
         return (
             f"LPIPS's network is `{lpips['net']}`; the thesis does not name its own, and values of "
             "different networks cannot be compared."
         )
+    instead = "; FLIP takes its place" if beside_flip else ""
     return (
-        "LPIPS is missing (`lpips.json` among the results has the reason); FLIP takes its place. Once "
-        "it is installed, add `--forcerun find_lpips`."
+        f"LPIPS is missing (`lpips.json` among the results has the reason){instead}. Once it is "
+        "installed, add `--forcerun find_lpips`."
     )
 
 

@@ -97,7 +97,7 @@ def table(
         *map(phrases.describe_times, timed.values()),
         "A shadow map is rendered whole in each frame; its size is 4 N² bytes. Ray tracing "
         "traces a shadow ray from each pixel facing the light.",
-        phrases.describe_lpips(lpips),
+        phrases.describe_lpips(lpips, beside_flip=False),
     ]
     title = phrases.titled(title, published)
     return Table(table, columns, notes, title, text_columns=2)
