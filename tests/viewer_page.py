@@ -59,9 +59,10 @@ def make_viewer(folder: Path, settings=NETWORKS, shape=None, light=SPHERE_OF_LIG
             network.prepare(folder / "mesh.ply")
         network.initialise(5)
         header = {"name": name, "network": setting, "training": None}
-        save_network(folder / f"{name}.safetensors", network, header)
+        weights = folder / name / "weights.safetensors"
+        save_network(weights, network, header)
         write_constants(folder / f"{name}.json", depth_bias=biases[name], push=0.05)
-        networks[name], _ = load_network(folder / f"{name}.safetensors")
+        networks[name], _ = load_network(weights)
         networks[name].push = 0.05
         rows.append({"method": name, "experiment": name, "label": name, "bias": "held_out"})
     scene = {"up": "y", "ground": True, "light": light}
@@ -71,7 +72,7 @@ def make_viewer(folder: Path, settings=NETWORKS, shape=None, light=SPHERE_OF_LIG
         template=[path for path in TEMPLATE.rglob("*") if path.is_file()],
         mesh_ply=folder / "mesh.ply",
         mesh_json=folder / "mesh.json",
-        weights=[folder / f"{name}.safetensors" for name in settings],
+        weights=[folder / name / "weights.safetensors" for name in settings],
         depth_biases=[folder / f"{name}.json" for name in settings],
         name="bumps",
         rows=rows,

@@ -219,6 +219,9 @@ def test_dragging_the_light_moves_it_and_the_address_keeps_it(browser, soft_page
         page.mouse.up()
         page.wait_for_selector("#viewer[data-moving=false]", timeout=120_000)
         after = page.evaluate("() => viewer.state.light.centre")
+        page.locator(".over").focus()
+        page.keyboard.press("End")
+        page.wait_for_function("() => location.hash.includes('divider=100.0')")
         address = page.url.split("#")[1]
     assert np.linalg.norm(np.subtract(after, before)) > 0.02
     with opened(browser, soft_page.html, address) as (page, _):

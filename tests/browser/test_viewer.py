@@ -473,8 +473,11 @@ def test_mesh_of_one_s_own_is_shown(open_viewer, other):
         "d.stl": {"file_type": "stl"},
         "e.stl": {"file_type": "stl_ascii"},
     }
-    for name, settings in files.items():
-        content = shape.export(**settings)
+    contents = {name: shape.export(**settings) for name, settings in files.items()}
+    contents["f.ply"] = contents["b.PLY"].replace(
+        b"\nelement", "\ncomment Blöcke\nelement".encode(), 1
+    )
+    for name, content in contents.items():
         give(page, name, content.encode() if isinstance(content, str) else content)
         page.locator(".notice", has_text=f"{name}: {len(shape.faces):,} triangles.").wait_for()
         assert page.locator("h1").inner_text() == f"Shadows of {name}"
