@@ -122,7 +122,7 @@ def test_classic_methods(page, data, frame, share):
     rays = image(frame, ray_traced(frame, radius, samples=2 if radius else 1))
     expected = {
         "pcf": image(frame, pcf._box(frame, radius, size=9, bias=1.0)),
-        "pcss": image(frame, pcss._visibility(frame, radius, scale=1.0, bias=1.0)),
+        "pcss": image(frame, pcss._visibility(frame, radius, nearest=0.5, scale=1.0, bias=1.0)),
         "msm_9": image(
             frame,
             moments._visibility(

@@ -80,7 +80,7 @@ def soft_disc_visibility(
     radius: float,
     searched: int = 64,
     samples: int = 128,
-    nearest: float = 0.25,
+    nearest: float = 0.5,
     keys: np.ndarray,
 ) -> np.ndarray:
     """Percentage-closer soft shadows of a light of a radius, (n,) float32.

@@ -1,7 +1,9 @@
 """Percentage-closer soft shadows: blurred by blockers' distance (Fernando 2005).
 
-With 64 samples of the search and 128 of the filter (Hu et al. 2025, 6.1). The constant `scale`
-scales the light; a point light has the four tests round each receiver.
+With 64 samples of the search and 128 of the filter (Hu et al. 2025, 6.1). The constant `nearest` is
+where blockers may begin, of a receiver's distance from the light, and so how widely they are searched:
+too widely, those of other penumbrae are averaged in (a workshop's squared error under 25 cm: 111 × 10⁻⁴
+at 0.25, 50 at 0.5). `scale` scales the light; a point light has the four tests round each receiver.
 """
 
 from dataclasses import replace
@@ -25,7 +27,9 @@ LOOK = Look(
 )
 
 
-def _visibility(frame: "SoftFrame", radius: float, *, scale: float, bias: float) -> np.ndarray:
+def _visibility(
+    frame: "SoftFrame", radius: float, *, nearest: float, scale: float, bias: float
+) -> np.ndarray:
     from neural_shadows.shadow_maps.box_filter import box_visibility
     from neural_shadows.shadow_maps.light_filters import soft_disc_visibility
 
@@ -37,6 +41,7 @@ def _visibility(frame: "SoftFrame", radius: float, *, scale: float, bias: float)
         frame.depths,
         *receivers,
         radius=scale * radius,
+        nearest=nearest,
         keys=frame.surface.pixel,
     )
 
@@ -47,7 +52,8 @@ def _filtered(surface: "Surface", shares: np.ndarray) -> np.ndarray:
     return depth_aware(surface, shares)
 
 
-_CONSTANTS = {"scale": (0.5, 0.7, 1.0, 1.4, 2.0), "bias": (0.1, 0.3, 1.0, 3.0)}
+_CONSTANTS = {"nearest": (0.2, 0.35, 0.5, 0.65, 0.8)}
+_CONSTANTS |= {"scale": (0.5, 0.7, 1.0, 1.4, 2.0), "bias": (0.1, 0.3, 1.0, 3.0)}
 _PCSS = Method(_visibility, _CONSTANTS, "PCSS")
 _FINE = replace(_PCSS, label="PCSS, map of 2048²", resolution=2048)
 METHODS = {
