@@ -1,6 +1,4 @@
-"""The one exception for what the user can mend, and full disks."""
-
-import errno
+"""The one exception for what the user can mend."""
 
 
 class InputError(Exception):
@@ -9,8 +7,3 @@ class InputError(Exception):
     The message is one readable line that names the file, key or value and says what
     to do about it. Whoever catches it prints the message without a traceback.
     """
-
-
-def is_full_disk(error: BaseException) -> bool:
-    """Whether a file could not be written for lack of room, or of a user's quota."""
-    return isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT)

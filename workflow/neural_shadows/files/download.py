@@ -6,7 +6,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from neural_shadows.errors import InputError, is_full_disk
+from neural_shadows.errors import InputError
+from neural_shadows.files.whole_files import is_full_disk
 
 
 @contextmanager

@@ -1,5 +1,6 @@
 """Atomic writing of files, and their digests."""
 
+import errno
 import hashlib
 import io
 import json
@@ -77,3 +78,8 @@ def sha256_of(path: str | Path) -> str:
     """Hexadecimal SHA-256 of a file."""
     with Path(path).open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def is_full_disk(error: BaseException) -> bool:
+    """Whether a file could not be written for lack of room, or of a user's quota."""
+    return isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT)

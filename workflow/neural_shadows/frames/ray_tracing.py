@@ -110,7 +110,7 @@ def _rays(
     (part, samples, 3) each, overwritten by those of the next part.
     """
     if even:
-        shifts = even_shifts(*np.divmod(frame.surface.pixel, frame.surface.width)[::-1])
+        shifts = even_shifts(frame.surface.pixel, frame.surface.width)
     else:  # other random numbers than the exact shadow's, to keep errors independent
         shifts = random_shifts(frame.surface.pixel + _SALT, 1)
     drawn = frame.number * samples

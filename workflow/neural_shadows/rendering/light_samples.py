@@ -45,16 +45,20 @@ def random_shifts(keys, rings):
     return shifts
 
 
-def even_shifts(columns: np.ndarray, rows: np.ndarray) -> np.ndarray:
-    """Shifts of a ring by pixel, evenly spread over neighbours: (n, 1, 2) float64.
+@njit(cache=True, nogil=True)
+def even_shifts(pixels, width):
+    """Shifts of a ring by pixel, row · width + column, evenly spread over neighbours: (n, 1, 2).
 
     Of a lattice (Roberts 2018) and the same turned by a right angle, as filters of few rays are fed. Of
     one ray the FFX- and SVGF-like filters' squared errors are 9 to 29 % less than of independent shifts,
     of two 2 to 7 % (three rooms, lights of 6 and 25 cm).
     """
-    turns = _GOLDEN[0] * columns + _GOLDEN[1] * rows
-    shares = _GOLDEN[1] * columns - _GOLDEN[0] * rows
-    return np.stack([turns, shares], axis=-1)[:, None] % 1
+    shifts = np.empty((len(pixels), 1, 2))
+    for i in range(len(pixels)):
+        row, column = pixels[i] // width, pixels[i] % width
+        shifts[i, 0, 0] = (_GOLDEN[0] * column + _GOLDEN[1] * row) % 1
+        shifts[i, 0, 1] = (_GOLDEN[1] * column - _GOLDEN[0] * row) % 1
+    return shifts
 
 
 @njit(cache=True, nogil=True)

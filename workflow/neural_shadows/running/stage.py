@@ -11,7 +11,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
-from neural_shadows.errors import InputError, is_full_disk
+from neural_shadows.errors import InputError
+from neural_shadows.files.whole_files import is_full_disk
 from neural_shadows.running import origin, progress, provenance
 
 # Used by Snakemake only: the digest of the code behind a result, files to be built along with a
