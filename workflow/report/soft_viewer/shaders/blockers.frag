@@ -32,7 +32,8 @@ void main() {
   float turn = 6.283185307 * fraction(uint(at.y * textureSize(points, 0).x + at.x) * 2654435769u);
   mat2x3 sides = sidesOf(r.fromLight / r.z) * mat2(cos(turn), sin(turn), -sin(turn), cos(turn));
   float bias = receiverBias(r.fromLight, r.cosine, 0.75);
-  vec2 found = blockers(r, sides, radius * (2.0 / r.z - 1.0 / r.z), SEARCHED, bias);
+  // Blockers from half of the receiver's distance on.
+  vec2 found = blockers(r, sides, radius * (1.0 / (0.5 * r.z) - 1.0 / r.z), SEARCHED, bias);
   answer = bitsOf(vec4(1.0));
   if (found.x == 0.0) return;
   float blocker = found.y / found.x;
