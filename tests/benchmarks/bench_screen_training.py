@@ -22,7 +22,7 @@ from neural_shadows.training.perceptual import Perceptual
 from neural_shadows.training.screen_crops import Crops, CropSample
 from neural_shadows.training.screen_loss import ScreenLoss
 from neural_shadows.training.screen_run import ScreenRun
-from neural_shadows.training.training_state import gradient_pool
+from neural_shadows.training.workers import Workers
 
 THREADS, CROPS, SIDE = 2, 4, 256
 NSM = {
@@ -148,7 +148,7 @@ def _convolutions(run: ScreenRun, trunk: Path | None):
 def _row(network: dict, trunk: Path | None, rounds: int) -> Row:
     ours, plain = (_run(network, precision, trunk) for precision in ("auto", "float32"))
     plain.__class__ = WholeBatch
-    pool = gradient_pool(THREADS)
+    pool = Workers(THREADS)
     convolutions, chunks = _convolutions(ours, trunk)
     products = [convolutions] * chunks
 

@@ -13,7 +13,7 @@ from neural_shadows.networks.object_space.frequency_network import FrequencyNetw
 from neural_shadows.networks.object_space.shadow_network import LabelledBatch
 from neural_shadows.training.batches import batch_indices
 from neural_shadows.training.training_run import TrainingRun
-from neural_shadows.training.training_state import gradient_pool
+from neural_shadows.training.workers import Workers
 
 THREADS = 2
 BATCH = 1024  # of the desk scale
@@ -86,7 +86,7 @@ def _row(width: int, rounds: int) -> Row:
     dtype = choose_dtype("auto", CPU)
     run, whole = (new_run(width, BATCH, precision) for precision in ("auto", "float32"))
     whole.chunk = BATCH
-    rays, pool = RandomRays(), gradient_pool(THREADS)
+    rays, pool = RandomRays(), Workers(THREADS)
     # Each thread multiplies for itself, as in our step: nothing has to be waited for.
     products = [_products(run.network, dtype, run.chunk) for _ in range(BATCH // run.chunk)]
     works = {

@@ -15,7 +15,16 @@ from neural_shadows.running.stage import arguments_of
 
 
 def test_arguments():
-    def stage(ply: Path, weights: Path | None, origins: list[Path], rows, scene, n: int, threads):
+    def stage(
+        ply: Path,
+        weights: Path | None,
+        origins: list[Path],
+        rows,
+        scene,
+        n: int,
+        threads,
+        run_cores,
+    ):
         pass
 
     job = SimpleNamespace(
@@ -24,10 +33,11 @@ def test_arguments():
         params={"settings": {"rows": [1, 2]}, "kind": "comparison", "scene": {}, "code": "0f"},
         # A param stands before a wildcard of its name.
         wildcards={"n": "64", "table": "table_4_3", "scene": "dragon"},
+        resources={"_cores": 2, "run_cores": 4},
         threads=2,
     )
     paths = {"ply": Path("a.ply"), "weights": None, "origins": [Path("1.npy")]}
-    others = {"rows": [1, 2], "scene": {}, "n": 64, "threads": 2}
+    others = {"rows": [1, 2], "scene": {}, "n": 64, "threads": 2, "run_cores": 4}
     assert arguments_of(job, stage) == paths | others
 
 
@@ -38,7 +48,7 @@ from neural_shadows.errors import InputError
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 
-names = dict(input={}, output={}, params={"code": "0123abcd"}, wildcards={})
+names = dict(input={}, output={}, params={"code": "0123abcd"}, wildcards={}, resources={})
 job = SimpleNamespace(log=["a job.log"], rule="train", threads=2, **names)
 
 def train():

@@ -154,7 +154,7 @@ KINDS = [
     [(KINDS[0], "muon"), *((kind, "adam") for kind in KINDS)],
     ids=lambda value: value if isinstance(value, str) else value["encoding"],
 )
-def test_kinds_resume_and_do_not_depend_on_threads(tmp_path, network, optimiser):
+def test_kinds_resume_and_do_not_depend_on_threads(tmp_path, idle, network, optimiser):
     """What their losses draw depends on the seed, the step and the chunk, and on nothing else."""
     trimesh.creation.icosphere(3, radius=0.5).export(tmp_path / "mesh.ply")
     settings = TINY | {"network": network, "training": TINY["training"] | {"batch_size": 128}}
@@ -167,9 +167,12 @@ def test_kinds_resume_and_do_not_depend_on_threads(tmp_path, network, optimiser)
     interrupt(tmp_path / "killed", **settings)
     assert run_training(tmp_path / "killed", **settings) == 20 - 12
     run_training(tmp_path / "threads", **settings | {"threads": 2})
+    idle(1, 2)
+    run_training(tmp_path / "idle", **settings | {"run_cores": 2})
     run_training(tmp_path / "other", **settings | {"seed": 2})
     whole = contents(tmp_path / "whole")
     assert contents(tmp_path / "killed") == contents(tmp_path / "threads") == whole
+    assert contents(tmp_path / "idle") == whole
     assert contents(tmp_path / "other") != whole
 
 

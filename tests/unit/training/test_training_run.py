@@ -10,7 +10,8 @@ from neural_shadows.errors import InputError
 from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
 from neural_shadows.networks.object_space.shadow_network import LabelledBatch
 from neural_shadows.training.training_run import TrainingRun
-from neural_shadows.training.training_state import gradient_pool, learning_rate_at
+from neural_shadows.training.training_state import learning_rate_at
+from neural_shadows.training.workers import Workers
 
 RAYS = [torch.from_numpy(part) for part in ball_rays(1000)]
 SETTINGS = {
@@ -119,7 +120,7 @@ def test_muon_moves_the_hidden_layers_and_adam_the_others():
     for step in range(4):
         rays = slice(100 * step, 100 * step + 100)
         take_step(ours, rays)
-        with gradient_pool(2) as pool:
+        with Workers(2) as pool:
             pooled.train_step(LabelledBatch(*(part[rays] for part in RAYS)), pool)
         batch = LabelledBatch(*(part[rays] for part in RAYS))
         losses, _ = theirs.network.losses(batch, theirs.dead_zone, torch.float32, None)

@@ -13,7 +13,7 @@ from typing import Any, get_args, get_type_hints
 
 from neural_shadows.errors import InputError
 from neural_shadows.files.whole_files import is_full_disk
-from neural_shadows.running import origin, progress, provenance
+from neural_shadows.running import cores, origin, progress, provenance
 
 # Used by Snakemake only: the digest of the code behind a result, files to be built along with a
 # table or beside an input, the kind that names a script, and the module of a table's or figure's kind.
@@ -35,7 +35,7 @@ def run_stage(
         job: Snakemake's script object (`input`, `output`, `params`, `log`, `rule`, …).
         function: takes keyword arguments named as in the rule: each named input (but `beside`),
             output and param (but `_RULE_ONLY`; those in `settings` one by one), and, if it has
-            arguments of these names, `threads` and wildcards.
+            arguments of these names, `threads`, resources and wildcards.
         write: takes the function's result, and the outputs by name, which the function then does not.
     """
     # File names that are not valid text must not cause a second error.
@@ -51,6 +51,7 @@ def run_stage(
         progress.TERMINAL = terminal
         origin.CODE = dict(job.params.items()).get("code")
         provenance.JOB = job
+        cores.JOB = cores.JobCores(job.threads)
         try:
             print(provenance.log_line(origin.describe_origin()), file=log)
             arguments = arguments_of(job, function)
@@ -82,11 +83,12 @@ def arguments_of(job: Any, function: Callable[..., None]) -> dict[str, Any]:
 
     See `converted`.
     """
-    input, output, params, wildcards = (
-        dict(part.items()) for part in (job.input, job.output, job.params, job.wildcards)
+    input, output, params, resources, wildcards = (
+        dict(part.items())
+        for part in (job.input, job.output, job.params, job.resources, job.wildcards)
     )
     parameters = inspect.signature(function).parameters
-    optional = {"threads": job.threads, **wildcards}
+    optional = {"threads": job.threads, **resources, **wildcards}
     arguments = {name: value for name, value in optional.items() if name in parameters}
     arguments |= {**input, **output, **params.pop("settings", {}), **params}
     return converted(function, {k: v for k, v in arguments.items() if k not in _RULE_ONLY})

@@ -13,7 +13,12 @@ class Compute(Model):
     device: Literal["auto", "cpu", "cuda"] = Field("auto", description="`auto`: a GPU if available")
     # Two trainings side by side learn from 1.07 (kernel prediction), 1.11 (Neural Shadow Mapping) and
     # 1.4 times (the thesis's network, batches of 1,024) the samples a second of one on two threads.
-    threads: int = Field(1, ge=1, le=1024, description="CPU threads of a sampling or training job")
+    threads: int = Field(
+        1,
+        ge=1,
+        le=1024,
+        description="CPU threads of a sampling or training job; trainings use idle cores of the run as well",
+    )
     timing_cores: int = Field(
         2,
         ge=1,

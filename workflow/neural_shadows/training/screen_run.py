@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import Executor
 from pathlib import Path
 from typing import Any
 
@@ -18,12 +17,13 @@ from neural_shadows.training.screen_batches import ScreenFrames
 from neural_shadows.training.screen_crops import Crops, CropSample
 from neural_shadows.training.screen_loss import ScreenLoss, Terms
 from neural_shadows.training.training_state import LOSS_SCALE, TrainingState
+from neural_shadows.training.workers import Workers
 
 
 class ScreenRun(TrainingState):
     """State and step of one screen-space training.
 
-    On a CPU each crop is a chunk for one thread of a pool, or with batch norms each two, with
+    On a CPU each crop is a chunk for one thread, or with batch norms each two, with
     lights of different sizes; on a GPU all are one chunk.
 
     Args:
@@ -77,13 +77,13 @@ class ScreenRun(TrainingState):
         super().restore(path)
         self._round_weights()
 
-    def train_step(self, step: int, pool: Executor) -> None:
-        """Do a step; crops and gradients are computed in the pool.
+    def train_step(self, step: int, workers: Workers) -> None:
+        """Do a step; crops and gradients are computed side by side.
 
         Raises:
             InputError: a crop with NaN or infinity.
         """
-        chunks, count = self._gather(step, pool)
+        chunks, count = self._gather(step, workers)
         weights = list(self._working_copy.parameters())
 
         def gradients(crops: Crops):
@@ -95,7 +95,7 @@ class ScreenRun(TrainingState):
             parts = torch.autograd.grad(self.loss_scale * loss, weights)
             return (loss.detach(), output.detach().flatten(), parts), statistics
 
-        compute = self._compute(pool)
+        compute = self._compute(workers)
         results, statistics = zip(*compute(gradients, chunks))
         self.change_weights(*zip(*results), compute)
         if self.network.of_its_base:  # crops that are lit everywhere are no divergence
@@ -112,9 +112,9 @@ class ScreenRun(TrainingState):
             return output
         return output.flatten(1).gather(1, crops.twin_at.flatten(1)).view_as(output)
 
-    def first_terms(self, pool: Executor) -> Terms:
+    def first_terms(self, workers: Workers) -> Terms:
         """Loss terms of the first step with the present weights."""
-        chunks, count = self._gather(0, pool)
+        chunks, count = self._gather(0, workers)
 
         def chunk_terms(crops: Crops) -> Terms:
             with torch.no_grad(), chunk_statistics():
@@ -123,13 +123,13 @@ class ScreenRun(TrainingState):
                 (terms,) = self.loss.terms(output, crops.valid, others, count)
             return terms
 
-        shares = zip(*self._compute(pool)(chunk_terms, chunks))
+        shares = zip(*self._compute(workers)(chunk_terms, chunks))
         return Terms(*(torch.stack(share).sum() for share in shares))
 
-    def _compute(self, pool: Executor) -> Callable:
-        return pool.map if self.device.type == "cpu" else map  # one thread feeds a GPU
+    def _compute(self, workers: Workers) -> Callable:
+        return workers.map if self.device.type == "cpu" else map  # one thread feeds a GPU
 
-    def _gather(self, step: int, pool: Executor) -> tuple[Sequence[Crops], int]:
+    def _gather(self, step: int, workers: Workers) -> tuple[Sequence[Crops], int]:
         """Chunks of a step, and its number of valid pixels."""
         settings = self.settings
         late = step >= settings["perturbation_from"] * settings["steps"]
@@ -141,7 +141,7 @@ class ScreenRun(TrainingState):
             return self.frames.crop(sample, settings["crop"], settings["aligned"])
 
         samples = crop_samples(self.frames, step, twins=twins, pairs=self._has_norms, **sampling)
-        crops = list(pool.map(crop, samples))
+        crops = list(workers.map(crop, samples))
         count = max(sum(int(each.valid.sum()) for each in crops), 1)
         if self.device.type == "cpu":
             size = 2 if self._has_norms else 1

@@ -38,7 +38,7 @@ from neural_shadows.training.screen_validation import (
 from neural_shadows.training.settings.frames import ScreenTraining
 from neural_shadows.training.steps import train_to_end
 from neural_shadows.training.training_data import describe_data
-from neural_shadows.training.training_state import gradient_pool
+from neural_shadows.training.workers import Workers
 
 # Validations in a training, the last at its end, all on the same images: at most these, as 96 of
 # 256² take four seconds of two slow cores. The default sets have fewer.
@@ -63,6 +63,7 @@ def train_on_frames(
     device: str = "auto",
     precision: str = "auto",
     threads: int = 1,
+    run_cores: int = 0,
 ) -> None:
     """Train a network on crops, for all radii at once.
 
@@ -82,7 +83,7 @@ def train_on_frames(
             predictors on the same (`no_shadow`, `hard_map`, and the network's own base); `train_mse`
             and `train_null_mse` on as many images of training frames.
         scenes: of the parts. lights: indices of the radii to train for; None for all.
-        threads: crops of a batch computed side by side; the weights do not depend on it.
+        threads, run_cores: of `Workers`, for the crops of a batch; the weights do not depend on them.
 
     Raises:
         InputError: a missing or damaged file, NaN, or no perturbed frames for `perturbation`.
@@ -123,13 +124,13 @@ def train_on_frames(
     identity = {**header, "data": _digest([*train, *validation, *([trunk] if trunk else [])])}
     code = (STAGES / "train_on_frames.py", form_module(network.form))
     checkpoint = checkpoint_folder(weights, identity, code)
-    with gradient_pool(threads) as pool:
+    with Workers(threads, run_cores, training.crops) as workers:
         if perceptual is not None:
             # From the initial weights, whatever step the run continues at.
-            loss.factor = loss.factor_for(run.first_terms(pool))
+            loss.factor = loss.factor_for(run.first_terms(workers))
         if (checkpoint / STATE).exists():
             run.restore(checkpoint / STATE)
-        compute = pool.map if torch_device.type == "cpu" else map
+        compute = workers.map if torch_device.type == "cpu" else map
         images = spread_images(held_out, IMAGES)
 
         def validate() -> None:
@@ -145,7 +146,7 @@ def train_on_frames(
         numbers = count(int(run.step))
 
         def advance() -> None:
-            run.train_step(next(numbers), pool)
+            run.train_step(next(numbers), workers)
 
         train_to_end(run, advance, experiment, checkpoint, started, "pixels", validate_at)
         if not run.validations or run.validations[-1]["step"] < int(run.step):
@@ -164,7 +165,7 @@ def train_on_frames(
     result |= {"died_at_step": run.died_at_step, "validations": run.validations, **errors}
     result |= {"perceptual_factor": loss.factor if perceptual is not None else None}
     result |= {"data": describe_data(train, validation)}
-    write_json(training_json, {**header, **result, **describe_origin(), "threads": threads})
+    write_json(training_json, {**header, **result, **describe_origin(), "threads": workers.most})
 
 
 def _check_perturbed(frames: ScreenFrames, train: Sequence[Path], training: ScreenTraining) -> None:

@@ -29,7 +29,7 @@ from neural_shadows.training.no_shadow import no_shadow_loss
 from neural_shadows.training.settings.rays import RayTraining
 from neural_shadows.training.steps import train_to_end
 from neural_shadows.training.training_run import TrainingRun
-from neural_shadows.training.training_state import gradient_pool
+from neural_shadows.training.workers import Workers
 
 
 def train_on_rays(
@@ -50,6 +50,7 @@ def train_on_rays(
     device: str = "auto",
     precision: str = "auto",
     threads: int = 1,
+    run_cores: int = 0,
 ) -> None:
     """Train one network, the thesis's with Adam and dead-zone loss.
 
@@ -71,7 +72,7 @@ def train_on_rays(
         directions_npy, origins, bounds, rays_json: of the ray set; the weights' header has its
             description.
         precision: of the matrix products, see `choose_dtype`.
-        threads: chunks of a batch computed side by side; the weights do not depend on it.
+        threads, run_cores: of `Workers`; the weights do not depend on them.
 
     Raises:
         InputError: a missing or damaged file, or an optimiser unfit for this network.
@@ -97,17 +98,18 @@ def train_on_rays(
     model.initialise(seed)
     if training is not None:
         rays = RaySet(directions_npy, origins, bounds)
-        result, curve = _train(model, header, rays, weights, threads, started)
+        cores = (threads, run_cores)
+        result, curve = _train(model, header, rays, weights, cores, started)
     else:
         seconds = round(time.monotonic() - started, 1)
         result = {"samples": 0, "seconds": seconds, "samples_per_second": None}
-        result |= {"final_loss": None, "no_shadow_loss": None, "died_at_step": None}
+        result |= {"final_loss": None, "no_shadow_loss": None, "died_at_step": None, "threads": 1}
         curve = ",".join(COLUMNS) + "\n"
 
     save_network(weights, model, header)
     write_text(loss_csv, curve)
     record = {"parameters": model.parameter_count(), "unfit": is_unfit(network, mesh), **result}
-    write_json(training_json, {**header, **record, **describe_origin(), "threads": threads})
+    write_json(training_json, {**header, **record, **describe_origin()})
 
 
 def _train(
@@ -115,7 +117,7 @@ def _train(
     header: WeightsHeader,
     rays: RaySet,
     weights: Path,
-    threads: int,
+    cores: tuple[int, int],
     started: float,
 ) -> tuple[dict[str, Any], str]:
     """Train a network; return its results and the loss curve as CSV."""
@@ -126,18 +128,18 @@ def _train(
         run.restore(checkpoint / STATE)
     source = batch_source(rays, run.device)
     batches = {key: run.settings[key] for key in ("seed", "batch_size")} | {"count": rays.count}
-    with gradient_pool(threads) as pool:
+    with Workers(*cores, run.chunks) as workers:
         # One thread feeds a GPU, so that its stream can be recorded.
-        workers = pool if run.device.type == "cpu" else None
+        on_cpu = workers if run.device.type == "cpu" else None
 
         def advance() -> None:
-            run.train_step(source.gather(batch_indices(run.step, **batches)), workers)
+            run.train_step(source.gather(batch_indices(run.step, **batches)), on_cpu)
 
         if run.network.recordable and isinstance(source, DeviceRays):
             advance = recorded(advance)
         train_to_end(run, advance, header["name"], checkpoint, started)
-    null = {"no_shadow_loss": no_shadow_loss(rays, run.dead_zone)}
-    return {**run.outcome(), **null, "died_at_step": run.died_at_step}, run.curve_csv()
+    result = {**run.outcome(), "died_at_step": run.died_at_step, "threads": workers.most}
+    return {**result, "no_shadow_loss": no_shadow_loss(rays, run.dead_zone)}, run.curve_csv()
 
 
 if "snakemake" in globals():

@@ -1,7 +1,5 @@
 """A step of a shadow network's training on labelled rays."""
 
-from concurrent.futures import Executor
-
 import numpy as np
 import torch
 
@@ -10,6 +8,7 @@ from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
 from neural_shadows.networks.object_space.shadow_network import LabelledBatch, ShadowNetwork
 from neural_shadows.settings.records import TrainingSettings
 from neural_shadows.training.training_state import LOSS_SCALE, TrainingState
+from neural_shadows.training.workers import Workers
 
 
 class TrainingRun(TrainingState):
@@ -31,13 +30,14 @@ class TrainingRun(TrainingState):
         self.chunk = settings["batch_size"]  # rays of a thread at once
         if device.type == "cpu":
             self.chunk = min(network.training_chunk, -(-self.chunk // 2))
+        self.chunks = -(-settings["batch_size"] // self.chunk)
         super().__init__(dict(network.named_parameters()), settings, settings["batch_size"])
         self.loss_scale = LOSS_SCALE.get(self.dtype, 1.0)
 
-    def train_step(self, batch: LabelledBatch, pool: Executor | None = None) -> None:
+    def train_step(self, batch: LabelledBatch, workers: Workers | None = None) -> None:
         """Do one step on the batch's mean loss.
 
-        Gradients of chunks are computed in the pool's threads and added in the chunks' order, so
+        Gradients of chunks are computed side by side and added in the chunks' order, so
         that the result is independent of the number of threads. Nothing is read back from a GPU.
         Random numbers of a network's loss are determined by the seed, the step and the chunk's
         number.
@@ -53,7 +53,7 @@ class TrainingRun(TrainingState):
             parts = torch.autograd.grad(self.loss_scale * loss, weights)
             return loss.detach(), outputs.detach(), parts
 
-        compute = pool.map if pool else map
+        compute = workers.map if workers else map
         losses, outputs, parts = zip(*compute(gradients, range(len(chunks)), chunks))
         self.change_weights(losses, outputs, parts, compute)
 

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -157,13 +156,3 @@ class TrainingState:
             self.spread.copy_(high - low)
         else:  # no ray of the batch needed the network: not a divergence
             self.spread.fill_(math.inf)
-
-
-def gradient_pool(threads: int) -> ThreadPoolExecutor:
-    """Threads to compute chunks' gradients, one chunk each.
-
-    They synchronise once a step. Threads inside each matrix product would synchronise 60 times, and
-    all wait when another process takes a core: beside one busy process 29,000 samples/s instead of
-    70,000 (batches of 16,384 on two cores).
-    """
-    return ThreadPoolExecutor(threads, initializer=torch.set_num_threads, initargs=(1,))

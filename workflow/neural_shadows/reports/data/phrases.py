@@ -198,4 +198,4 @@ def describe_lpips(lpips: Lpips, beside_flip: bool = True) -> str:
 
 
 def _threads(count: int) -> str:
-    return f"{count} thread{'s' if count > 1 else ''}"
+    return "1 thread" if count == 1 else f"up to {count} threads"
