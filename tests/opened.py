@@ -42,7 +42,9 @@ def evaluate_frames(
 def called(function, **job):
     """A stage's function with what a job hands to it."""
     parts = dict.fromkeys(("input", "output", "params", "wildcards"), {})
-    return function(**arguments_of(SimpleNamespace(threads=1, **parts | job), function))
+    return function(
+        **arguments_of(SimpleNamespace(threads=1, resources={}, **parts | job), function)
+    )
 
 
 def write_constants(path: Path, **constants: float) -> Path:

@@ -13,7 +13,7 @@ from checkout import Checkout
 # reports in which two runs may differ are made from these, and are the same where these are.
 MEASURED = {
     # On a cluster the machine too: cores are those of the job.
-    "networks/*/training.json": {"seconds", "samples_per_second", "machine"},
+    "networks/*/training.json": {"seconds", "samples_per_second", "threads", "machine"},
     "constants/*/*/*.json": {"machine"},
     "scenes/*/mesh.json": {"machine"},
     "frames/*/*/*.json": {"machine"},
