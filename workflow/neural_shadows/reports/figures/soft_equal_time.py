@@ -54,7 +54,7 @@ def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str
     """
     from matplotlib.lines import Line2D
 
-    table, name = with_shown_errors(table)
+    table, name = with_shown_errors(table[table["number"].isin(radii)])
     looks = dict.fromkeys(map(look_of, table.dropna(subset="ms")["method"]))
     entries = [
         Line2D([], [], label=look.name, color=look.colour, marker=look.marker, linestyle="")
