@@ -12,6 +12,7 @@ from functools import lru_cache
 import numpy as np
 from numba import njit
 
+from neural_shadows.rendering.perpendicular import perpendicular
 from neural_shadows.scenes.tracing import Tracer
 
 
@@ -19,16 +20,10 @@ from neural_shadows.scenes.tracing import Tracer
 def plane_basis(direction):
     """Unit vectors u, v across a unit direction d, with u × v = d.
 
-    T. Duff et al., "Building an orthonormal basis, revisited", JCGT 6(1), 2017: exact to
-    rounding for every d, and continuous but for d_z changing its sign. All (3,) float64.
+    See `perpendicular`. All (3,) float64.
     """
-    x, y, z = direction
-    sign = math.copysign(1.0, z)
-    p = -1 / (sign + z)
-    q = x * y * p
-    u = np.array([1 + sign * x * x * p, sign * q, -sign * x])
-    v = np.array([q, sign + y * y * p, -y])
-    return u, v
+    u, v = perpendicular(direction[0], direction[1], direction[2])
+    return np.array(u), np.array(v)
 
 
 @njit(cache=True, nogil=True)

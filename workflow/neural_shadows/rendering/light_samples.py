@@ -7,6 +7,8 @@ consists of the first k rings, each weighted by its area (Datta et al. 2022, sup
 import numpy as np
 from numba import njit
 
+from neural_shadows.rendering.perpendicular import perpendicular
+
 # The generalised golden ratio's plane sequence (Roberts 2018): any run of it is evenly spread.
 _GOLDEN = (0.7548776662466927, 0.5698402909980532)
 
@@ -84,12 +86,7 @@ def ring_vectors(points, shifts, first, centre, radii, counts, vectors):
         )
         length = np.sqrt(x * x + y * y + z * z)
         nx, ny, nz = x / length, y / length, z / length
-        # Two directions across the one to the light (Duff et al. 2017).
-        sign = 1.0 if nz >= 0 else -1.0
-        a = -1 / (sign + nz)
-        b = nx * ny * a
-        ux, uy, uz = 1 + sign * nx * nx * a, sign * b, -sign * nx
-        vx, vy, vz = b, sign + ny * ny * a, -ny
+        (ux, uy, uz), (vx, vy, vz) = perpendicular(nx, ny, nz)
         index, inner = 0, 0.0
         for ring in range(len(radii)):
             outer = radii[ring] * radii[ring]

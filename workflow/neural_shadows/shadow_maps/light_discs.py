@@ -13,6 +13,7 @@ the more.
 import numpy as np
 from numba import njit
 
+from neural_shadows.rendering.perpendicular import perpendicular
 from neural_shadows.shadow_maps.light_map import LightMap, texel_of
 
 _GOLDEN_ANGLE = 2.399963229728653
@@ -46,12 +47,8 @@ def looked_up(light_map: LightMap, depths: np.ndarray) -> tuple:
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def across(x, y, z, key):
-    """Two unit vectors across a unit vector, turned by a receiver's key (Duff et al. 2017)."""
-    sign = 1.0 if z >= 0 else -1.0
-    a = -1 / (sign + z)
-    b = x * y * a
-    ux, uy, uz = 1 + sign * x * x * a, sign * b, -sign * x
-    vx, vy, vz = b, sign + y * y * a, -y
+    """Two unit vectors across a unit vector, turned by a receiver's key."""
+    (ux, uy, uz), (vx, vy, vz) = perpendicular(x, y, z)
     turns = key * 0.6180339887498949
     turn = np.float32(2 * np.pi * (turns - np.floor(turns)))
     c, s = np.cos(turn), np.sin(turn)

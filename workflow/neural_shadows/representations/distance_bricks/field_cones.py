@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from neural_shadows.rendering.perpendicular import perpendicular
 from neural_shadows.representations.distance_bricks.field_marching import BRICK, trilinear
 
 # Fitted on three frames of the Stanford dragon at 256³ for suns of radius 1, 2.5 and 5 degrees.
@@ -140,16 +141,11 @@ def _visible_share(field, ox, oy, oz, dx, dy, dz, nx, ny, nz, slope, goal, discs
         return half_disc(m)
     begin = max(begin, np.float32(0.9) * touched) if touched < goal else goal
     narrow = slope / np.sqrt(np.float32(len(discs)))
-    # Two directions across the one to the light (Duff et al. 2017).
-    sign = _ONE if dz >= 0 else -_ONE
-    a = -_ONE / (sign + dz)
-    b = dx * dy * a
+    (ux, uy, uz), (vx, vy, vz) = perpendicular(dx, dy, dz)
     total = _ZERO
     for k in range(len(discs)):
         p, q = slope * discs[k, 0], slope * discs[k, 1]
-        x = dx + p * (_ONE + sign * dx * dx * a) + q * b
-        y = dy + p * sign * b + q * (sign + dy * dy * a)
-        z = dz - p * sign * dx - q * dy
+        x, y, z = dx + p * ux + q * vx, dy + p * uy + q * vy, dz + p * uz + q * vz
         over = _ONE / np.sqrt(x * x + y * y + z * z)
         x, y, z = x * over, y * over, z * over
         m = min((nx * x + ny * y + nz * z) / narrow, _ONE)
