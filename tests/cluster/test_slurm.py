@@ -6,6 +6,7 @@
 As root, for a quarter of an hour.
 """
 
+import json
 import os
 import re
 import signal
@@ -160,6 +161,8 @@ def test_training_goes_on_after_its_time_limit(submit, local, tmp_path):
     assert set(states[:-1]) == {"TIMEOUT"} and states[-1] == "COMPLETED"
     log = (checkout.results / "logs" / "train" / "dragon.log").read_text()
     assert int(re.search(r"train dragon: +(\d+) ?%", log)[1]) >= 10
+    training = json.loads((checkout.results / "networks/dragon/training.json").read_text())
+    assert training["threads"] == 1  # its own, of the node's
     assert (checkout.folder / WEIGHTS).read_bytes() == (local.folder / WEIGHTS).read_bytes()
 
 

@@ -112,6 +112,8 @@ STAGES = WORKFLOW / "neural_shadows"
 GPUS = int(COMPUTE["device"] == "cuda")
 # Cores of the run. A cluster's may have no number.
 CORES = workflow.global_resources["_cores"].value or COMPUTE["timing_cores"]
+# Those whose idle ones a training may use: of a cluster's job all of its node would be counted.
+SHARED_CORES = 0 if workflow.remote_exec else CORES
 
 
 wildcard_constraints:

@@ -51,7 +51,7 @@ rule train:
         **usual(8000, minutes=600) | {"runtime": 600},
         gpu=lambda wildcards: GPUS * LAYOUT.is_trained(wildcards.experiment),
         # A training also uses cores that no job of the run has.
-        run_cores=workflow.global_resources["_cores"].value or 0,
+        run_cores=SHARED_CORES,
     params:
         code=lambda wildcards: code(
             f"training/{trainings.stage(LAYOUT, wildcards.experiment)}",
