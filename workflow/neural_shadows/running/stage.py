@@ -51,8 +51,8 @@ def run_stage(
         progress.TERMINAL = terminal
         origin.CODE = dict(job.params.items()).get("code")
         provenance.JOB = job
-        cores.JOB = cores.JobCores(job.threads)
         try:
+            cores.JOB = cores.JobCores(job.threads)
             print(provenance.log_line(origin.describe_origin()), file=log)
             arguments = arguments_of(job, function)
             if write is None:
