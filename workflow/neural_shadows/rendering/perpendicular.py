@@ -3,7 +3,7 @@
 import numpy as np
 from numba import njit
 
-_ONE = np.float32(1)  # other formats stay as they are
+_ONE = np.float32(1)  # so that float32 stays float32; float64 stays float64 with it, too
 
 
 @njit(cache=True, nogil=True)
