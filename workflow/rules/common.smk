@@ -1,7 +1,6 @@
 """The checked configuration and shared names of the rules."""
 
 import functools
-import gc
 import inspect
 import os
 import shlex
@@ -10,9 +9,6 @@ from pathlib import Path
 
 from snakemake.cli import get_argument_parser
 from snakemake.exceptions import WorkflowError
-
-# A graph of 1,000 jobs is millions of objects that stay: to search them for cycles took 6 % of planning.
-gc.set_threshold(200_000, 20, 20)
 
 # The package of this file's checkout, for the rules and their stages: as a module, the main Snakefile
 # is another workflow's.

@@ -1,6 +1,7 @@
 """Jobs of the workflow: calls of stage functions, logs, error messages."""
 
 import faulthandler
+import gc
 import inspect
 import os
 import shlex
@@ -9,7 +10,7 @@ import sys
 import traceback
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, get_args, get_type_hints
+from typing import Any, NoReturn, get_args, get_type_hints
 
 from neural_shadows.errors import InputError
 from neural_shadows.files.whole_files import is_full_disk
@@ -18,6 +19,9 @@ from neural_shadows.running import cores, origin, progress, provenance
 # Used by Snakemake only: the digest of the code behind a result, files to be built along with a
 # table or beside an input, the kind that names a script, and the module of a table's or figure's kind.
 _RULE_ONLY = {"code", "beside", "kind", "module"}
+
+# Python's own. A run's is higher while it imports, see the package's `__init__.py`.
+_GC_THRESHOLD = (700, 10, 10)
 
 INTERRUPTED = 130  # the shell's status after Ctrl-C
 
@@ -38,6 +42,8 @@ def run_stage(
             arguments of these names, `threads`, resources and wildcards.
         write: takes the function's result, and the outputs by name, which the function then does not.
     """
+    gc.freeze()
+    gc.set_threshold(*_GC_THRESHOLD)
     # File names that are not valid text must not cause a second error.
     terminal = os.fdopen(os.dup(2), "w", buffering=1, errors="backslashreplace")
     with open(job.log[0], "w", encoding="utf-8", errors="backslashreplace", buffering=1) as log:
@@ -65,7 +71,15 @@ def run_stage(
             # First, since the log's disk may be full.
             print(line, file=terminal)
             print(traceback.format_exc(), line, sep="\n", file=log)
-            sys.exit(1)
+            _end(1)
+        _end(0)
+
+
+def _end(status: int) -> NoReturn:
+    """End the process at once; all of its files are written whole, and closed, by then."""
+    for stream in (sys.stdout, sys.stderr):
+        stream.flush()
+    os._exit(status)
 
 
 def _message(error: Exception) -> str:
