@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from functools import cache
 
 import numpy as np
-from scipy.optimize import brentq
 
 from neural_shadows.errors import InputError
 from neural_shadows.frames.penumbra_widths import model_widths
@@ -32,6 +31,8 @@ def height_of(
     Raises:
         InputError: no height of the spot has that width.
     """
+    from scipy.optimize import brentq  # 0.2 s to import, needless for scenes of known height
+
     settings = [_drawn(rng) for _ in range(_CAMERAS)]
 
     @cache  # each takes 0.4 s, most of it to build the scene
