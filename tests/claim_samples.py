@@ -4,8 +4,9 @@ import numpy as np
 import pandas as pd
 from report_samples import PUBLISHED, row
 
+from neural_shadows.evaluation.violations import RANDOM
 from neural_shadows.reports.claims.gates import judge
-from neural_shadows.reports.claims.kinds.violations import LOWER, UPPER
+from neural_shadows.reports.claims.kinds.violations import COUNTS, LOWER, UPPER
 from neural_shadows.reports.claims.measured import Measured
 from neural_shadows.reports.data.learned import margins
 from neural_shadows.reports.data.published import read_published
@@ -90,16 +91,19 @@ def measured(scenes=None, curves=None, **changes):
     return Measured(**values | changes)
 
 
-def violated(false, leak):
+def violated(false, leak, of_random=(20, 20)):
     """Counts of violated bounds by view.
 
-    At 100 lit points and at 500 others; `false` and `leak`: at how many of each 100 that shows.
+    At 100 lit points and at 500 others; `false` and `leak`: at how many of each 100 that shows;
+    `of_random`: both of random depths.
     """
     rng = np.random.default_rng(4)
-    counts = dict(zip((*LOWER, *UPPER), (200, 100, 0, 5000, 500, 0)))
-    counts = {name: np.full(VIEWS, float(count)) for name, count in counts.items()}
-    for name, share in ((LOWER[-1], false), (UPPER[-1], 5 * leak)):
-        counts[name] = rng.permutation(share + np.arange(VIEWS) % 3 - 1.0)
+    counts = {}
+    for start, (of_lower, of_upper) in (("", (false, leak)), (RANDOM, of_random)):
+        named = dict(zip(COUNTS, (200, 100, 0, 5000, 500, 0)))
+        counts |= {start + name: np.full(VIEWS, float(count)) for name, count in named.items()}
+        for name, share in ((LOWER[-1], of_lower), (UPPER[-1], 5 * of_upper)):
+            counts[start + name] = rng.permutation(share + np.arange(VIEWS) % 3 - 1.0)
     return counts
 
 

@@ -11,7 +11,12 @@ from neural_shadows.evaluation.count_violations import count_violations
 from neural_shadows.evaluation.metric_files import read_metrics
 from neural_shadows.evaluation.ray_network import network_method
 from neural_shadows.evaluation.references import References
-from neural_shadows.evaluation.violations import Violations, compare_depths
+from neural_shadows.evaluation.violations import (
+    RANDOM,
+    Violations,
+    compare_depths,
+    random_depths,
+)
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 
 BALL = 0.5
@@ -25,6 +30,20 @@ def test_counts():
     lit = np.array([False, False, False, True, True, True])
     truth = np.float32([1, 1, 0, 0, 1, 1])
     assert compare_depths(t, t_lb, t_ub, lit, truth) == Violations(6, 3, 2, 1, 2, 1, 1)
+
+
+def test_random_depths_are_uniform_and_answered_as_depths_are():
+    rng = np.random.default_rng(0)
+    chord = rng.uniform(0.5, 2, 100_000).astype(np.float32)
+    s = rng.uniform(0, 3, len(chord)).astype(np.float32)
+    t, lit = random_depths(s, chord, seed=3)
+    shares = np.histogram(t / chord, 10, (0, 1))[0] / len(t)
+    assert shares == pytest.approx(np.full(10, 0.1), abs=5 * (0.09 / len(t)) ** 0.5)
+    # In shadow ⟺ min(s, ℓ) > t, of which a uniform t has the chance min(s, ℓ) / ℓ.
+    expected = np.minimum(s, chord) / chord
+    assert np.mean(~lit) == pytest.approx(expected.mean(), abs=0.005)
+    assert not lit[t < np.minimum(s, chord)].any() and lit[t >= np.minimum(s, chord)].all()
+    assert (random_depths(s, chord, seed=4)[0] != t).mean() > 0.99
 
 
 class Ball(ShadowNetwork):
@@ -58,12 +77,17 @@ def test_a_ball_that_is_short_or_far_breaks_the_bound_on_that_side(
     answer, shown_anywhere = network_method(*network), np.zeros(2)
     for frame, truth in References(files.references):
         view = counts.loc[frame.view.view_set, frame.view.index]
-        found, visibility = Violations(**view), answer(frame)(0.0)
+        found, of_random = (
+            Violations(**{name: view[start + name] for name in Violations._fields})
+            for start in ("", RANDOM)
+        )
+        visibility = answer(frame)(0.0)
         # The line of a point meets the ball if it passes its centre within the radius.
         light = frame.view.light
         across = np.linalg.norm(frame.p - np.outer(frame.p @ light, light), axis=1)
         hitting = np.count_nonzero(across < BALL)
         assert found.queries > hitting > 100
+        assert of_random.queries == found.queries > of_random.lower_violations > 0.1 * hitting
         rim = 0.02 * hitting  # where the facets are within the ball that they stand for
         assert found.lower_violations == pytest.approx(hitting * lower, abs=rim)
         assert found.upper_violations == pytest.approx(hitting * upper, abs=rim)

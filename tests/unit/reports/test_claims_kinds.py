@@ -23,7 +23,7 @@ from neural_shadows.metrics.pooled_psnr import mse_of, psnr_of
 from neural_shadows.reports.claims import losses
 from neural_shadows.reports.claims.gates import judge
 from neural_shadows.reports.claims.kinds import violations
-from neural_shadows.reports.claims.kinds.violations import LOWER, UPPER
+from neural_shadows.reports.claims.kinds.violations import COUNTS
 from neural_shadows.reports.claims.views import comparisons
 from neural_shadows.reports.data import verdicts
 from neural_shadows.reports.data.trained import THESIS_SAMPLES
@@ -208,6 +208,15 @@ def test_violations_are_judged_by_what_each_costs_where_it_can_be_seen(false, le
     assert ("of one training" in outcome["reason"]) and outcome["seeds"] == 1
 
 
+def test_what_violations_of_random_depths_cost_as_well_is_no_support():
+    data = measured(
+        {"dragon": scene({"net": violated(40, 15, of_random=(90, 70))})},
+        trainings={"net": record()},
+    )
+    outcome = judge({"kind": "violations", "rows": [[row("net")]]}, data)
+    assert outcome["verdict"] == "vacuous" and "random depths" in outcome["reason"]
+
+
 def test_violations_are_those_of_the_largest_budget():
     curve = points("net", [1000, 2000], 2)
     costs = {1000: (10, 30), 2000: (40, 15)}
@@ -229,7 +238,7 @@ def test_few_views_or_frames_decide_nothing():
 
 
 def test_violations_of_a_network_that_draws_no_shadow_decide_nothing():
-    counts = dict.fromkeys((*LOWER, *UPPER), np.zeros(VIEWS)) | {"lower_violations": np.ones(VIEWS)}
+    counts = dict.fromkeys(COUNTS, np.zeros(VIEWS)) | {"lower_violations": np.ones(VIEWS)}
     data = measured({"dragon": scene({"net": counts})}, trainings={"net": record()})
     (comparison,) = violations.comparisons({"rows": [[row("net")]]}, data)
     assert (comparison.supports, comparison.evidence) == (

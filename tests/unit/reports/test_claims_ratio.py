@@ -140,6 +140,7 @@ def of_nulls(**nulls):
 
 MINE = {"label": "mine", "frames": "unseen"}
 CARRIES = {"column": "mse", "of": MINE, "to": MINE | {"frames": "learned"}, "at_most": 1.5}
+PER_ITSELF = {"column": "mse", "per": "mse", "of": MINE, "to": 0.9, "at_least": 1}
 BEATS = {"column": "mse", "of": {"label": "other", "frames": "unseen"}, "to": MINE, "at_least": 1}
 
 
@@ -153,6 +154,7 @@ BEATS = {"column": "mse", "of": {"label": "other", "frames": "unseen"}, "to": MI
         (BEATS, {"no_shadow": (0.09, 0.02)}, verdicts.SUPPORTED),  # level is not better
         (BEATS, {"no_shadow": (0.09, 0.0)}, verdicts.VACUOUS),  # what never changes, never flickers
         (BEATS, {}, verdicts.SUPPORTED),
+        (PER_ITSELF, {"no_shadow": (0.0, 0.0)}, verdicts.SUPPORTED),  # 0 / 0 is nothing
     ],
 )
 def test_a_ratio_that_a_null_predictor_has_too_is_vacuous(ratio, nulls, verdict):

@@ -10,7 +10,8 @@ from report_samples import (
     written_table,
 )
 
-from neural_shadows.reports.claims.kinds.violations import LOWER, UPPER
+from neural_shadows.evaluation.violations import RANDOM
+from neural_shadows.reports.claims.kinds.violations import COUNTS
 from neural_shadows.reports.claims.write_claims import COLUMNS, claims
 from neural_shadows.reports.data.quality import METRICS
 from neural_shadows.reports.page.claim_cards import budget, read_cards
@@ -36,7 +37,9 @@ def written(tmp_path):
     means = dict.fromkeys(runs, quality)
     means["shadow_map_256"] = {name: value / 2 for name, value in quality.items()}
     means["no_shadow"] = quality | {"lpips": 0.5, "psnr": 10.0, "ssim": 0.5}
-    means[runs[0]] = means[runs[0]] | dict.fromkeys((*LOWER, *UPPER), 1.0)
+    means[runs[0]] = means[runs[0]] | dict.fromkeys(
+        (*COUNTS, *(RANDOM + name for name in COUNTS)), 1.0
+    )
     folder = tmp_path / "networks"
     losses, trainings = [], []
     for seed, name in enumerate([*runs, "other"]):

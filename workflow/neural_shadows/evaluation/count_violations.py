@@ -7,7 +7,7 @@ from neural_shadows.evaluation.metric_files import write_metrics
 from neural_shadows.evaluation.ray_network import open_network, take_constants
 from neural_shadows.evaluation.references import References
 from neural_shadows.evaluation.views import View
-from neural_shadows.evaluation.violations import compare_depths
+from neural_shadows.evaluation.violations import RANDOM, compare_depths, random_depths
 from neural_shadows.meshes.prepared_mesh import read_prepared
 from neural_shadows.networks.object_space.shadow_query import on_device
 from neural_shadows.networks.object_space.sphere_rays import sphere_rays
@@ -30,7 +30,7 @@ def count_violations(
     precision: str = "auto",
     threads: int = 1,
 ) -> None:
-    """Count `Violations` of a batch of views, into a file of `write_metrics`.
+    """Count `Violations` of a batch of views, and of random depths, into a file of `write_metrics`.
 
     Args:
         references: of `render_references`.
@@ -58,9 +58,12 @@ def count_violations(
             t = (t_pred + depth_bias).cpu().numpy()
             bounds = dual_bounds(tracer, rays.origins.cpu().numpy(), -light.cpu().numpy())
             true = truth[frame.lit_side][rays.index.cpu().numpy()]
-            counted = compare_depths(t, *bounds, lit, true)
+            drawn = random_depths(rays.s.cpu().numpy(), rays.chord.cpu().numpy(), seed=number)
+            counts = compare_depths(t, *bounds, lit, true)._asdict()
+            of_random = compare_depths(drawn[0], *bounds, drawn[1], true)._asdict()
+            counts |= {f"{RANDOM}{name}": count for name, count in of_random.items()}
             place = View(references, number, frame, truth, None).key(0) | {"method": method}
-            rows += [place | {"metric": name, "value": n} for name, n in counted._asdict().items()]
+            rows += [place | {"metric": name, "value": count} for name, count in counts.items()]
             bar.update()
     write_metrics(violations_csv, rows)
 

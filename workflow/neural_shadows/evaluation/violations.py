@@ -4,6 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+# Of the counts of depths that know nothing of the object, before their names.
+RANDOM = "random_"
 TOLERANCE = 1e-4  # sphere radii, a tenth of the shading offset: less is rounding
 
 
@@ -14,6 +16,8 @@ class Violations(NamedTuple):
     only where another surface lies between, as a light leak. False shadow can only be where a point
     is lit, and a leak where it is not: how many of the violations are there is counted too, or
     random depths would confirm it, by the share of points that are lit.
+    They confirm it even so: a lit point is before the first hit or far behind the object, so that a
+    depth before it nearly always darkens the point. `random_depths` are therefore counted as well.
     """
 
     queries: int
@@ -40,3 +44,16 @@ def compare_depths(
     bright, dark = lower & (truth == 1), upper & (truth == 0)
     counted = len(t), lower, bright, bright & ~lit, upper, dark, dark & lit
     return Violations(*(int(np.sum(mask)) for mask in counted))
+
+
+def random_depths(s: np.ndarray, chord: np.ndarray, seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """Draw depths uniformly along the chords (k,) of rays, with the answers that follow.
+
+    Args:
+        s: (k,) distances from the sphere to the points.
+
+    Returns:
+        Depths (k,) float32; lit: (k,) bool, as `ShadowNetwork.points_lit` answers depths.
+    """
+    t = np.random.default_rng(seed).random(len(chord), np.float32) * chord
+    return t, np.minimum(s, chord) <= t

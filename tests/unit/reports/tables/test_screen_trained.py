@@ -290,6 +290,11 @@ def test_what_learns_nothing_is_in_the_csv_alone(made):
     table, text = made(screen_temporal, rows, learned, labels={"five": "Five"})
     flickers = table.set_index("label")["e_light"]
     assert flickers["Shadow map"] == 0.04 and flickers["Five"] == 0.02
+    # With one row of a null predictor, by which a claim finds its number.
+    assert table[table["null"].notna()]["label"].tolist() == ["No shadow", "Shadow map"]
+    listed, _ = made(screen_temporal, rows, learned, labels={"five": "Five", "hard": "Shadow map"})
+    assert listed[listed["null"] == "hard"]["e_light"].tolist() == [0.04]
+    assert listed[listed["null"].isna()]["label"].tolist()[2:] == ["Shadow map", "Shadow map + TAA"]
 
 
 @pytest.mark.parametrize(

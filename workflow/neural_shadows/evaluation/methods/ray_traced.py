@@ -26,7 +26,7 @@ METHODS = {
         f"rt_{count}": Method(
             partial(_from_centres, samples=count), label=rays_label(count), rays=count, **_BY_RAYS
         )
-        for count in (1, 2, 3, 4, 6, 8, 16, 32, 40, 64)
+        for count in (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 40, 64)
     },
     **{
         f"rt_{count}_spread": Method(

@@ -57,19 +57,23 @@ def table(soft: TrainedFrames) -> Table:
 
 
 def temporal_table(soft: TrainedFrames) -> pd.DataFrame:
-    """Tabulate flicker by method or null predictor, without and with TAA.
+    """Tabulate flicker by method, without and with TAA, and by null predictor, without.
 
-    Columns: `method`, `label`, `null` (see `TrainedFrames.null_of`), `taa`; by what moves in a
+    A null predictor among the methods has a row of either kind, so that claims are tried with it.
+
+    Columns: `method`, `label`, `null` (its name, None of a method), `taa`; by what moves in a
     sequence `e_camera`, …, and `reference_camera`, …, of the exact shadow; `mse_sequence`, and
     `mse_edge` of test frames, NaN with TAA.
     """
     rows = []
-    for method, label in soft.labels_and_nulls.items():
+    methods = [(method, label, None) for method, label in soft.labels.items()]
+    nulls = [(null, label, null) for null, label in soft.nulls.items()]
+    for method, label, null in [*methods, *nulls]:
         own = soft.errors[soft.errors["method"] == method]
-        for taa in (False, True):
+        for taa in (False, True) if null is None else (False,):
             end = "_taa" if taa else ""
             row = {"method": method, "label": f"{label} + TAA" if taa else label, "taa": taa}
-            row["null"] = soft.null_of(method)
+            row["null"] = null
             row |= _by_kind(own, f"instability{end}", "e")
             row |= _by_kind(own, "instability_reference", "reference")
             row["mse_sequence"] = _mean(own, "mse_taa" if taa else "mse_sequence")

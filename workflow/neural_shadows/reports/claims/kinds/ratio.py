@@ -249,7 +249,10 @@ def _number_in(table: pd.DataFrame, ratio: Ratio, where: Row | float) -> float:
     if isinstance(where, float):
         return where
     value = _cell(table, ratio.column, where)
-    return value / _cell(table, ratio.per, where) if ratio.per else value
+    if not ratio.per:
+        return value
+    with np.errstate(divide="ignore", invalid="ignore"):  # all dark never changes
+        return float(np.divide(value, _cell(table, ratio.per, where)))
 
 
 def _cell(table: pd.DataFrame, column: str, where: Row) -> float:

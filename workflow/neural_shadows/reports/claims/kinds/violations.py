@@ -1,11 +1,13 @@
 """Costs of violated bounds: false shadow or light leaks [5.1]."""
 
+from collections.abc import Sequence
 from typing import Any, Literal
 
 import numpy as np
 import pandas as pd
 from pydantic import Field
 
+from neural_shadows.evaluation.violations import RANDOM
 from neural_shadows.layout import tables
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import batches
@@ -22,6 +24,7 @@ LEAST_SEEDS = 1
 # Counts of violations, of those at points where the error can occur, and of those where it does.
 LOWER = ("lower_violations", "lit_of_lower", "false_shadow_of_lower")
 UPPER = ("upper_violations", "shadowed_of_upper", "light_leak_of_upper")
+COUNTS = (*LOWER, *UPPER)
 
 
 class Settings(AnyClaim):
@@ -70,10 +73,18 @@ def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
     the lit share of the frame. Counts of all views are added.
     """
     rows = methods(claim)
-    return [_comparison(label, row, data) for label, row in zip(labels(rows), rows)]
+    return [_comparison(label, row, data, COUNTS) for label, row in zip(labels(rows), rows)]
 
 
-def _comparison(label: str, row: Row, data: Measured) -> Comparison:
+def without_networks(claim: Claim, data: Measured) -> dict[str, list[Comparison]]:
+    """The comparisons with depths drawn at random, on the same rays."""
+    names = [f"{RANDOM}{name}" for name in COUNTS]
+    return {
+        "random_depths": [_comparison("random depths", row, data, names) for row in methods(claim)]
+    }
+
+
+def _comparison(label: str, row: Row, data: Measured, names: Sequence[str]) -> Comparison:
     budget = data.budgets([row])[-1]
     fields = {
         "metric": "seen violations",
@@ -82,9 +93,7 @@ def _comparison(label: str, row: Row, data: Measured) -> Comparison:
         "seeds": budget.seeds if budget.runs else None,
         "samples": budget.samples,
     }
-    frames = [
-        data.metrics[row["scene"]][method][[*LOWER, *UPPER]] for method in data.methods(row, budget)
-    ]
+    frames = [data.metrics[row["scene"]][method][[*names]] for method in data.methods(row, budget)]
     counts = np.stack([frame.to_numpy() for frame in frames])  # (S, V, 6)
     lower, lit, false, upper, shadowed, leak = counts.sum((0, 1))
     if not lit or not shadowed:
@@ -110,5 +119,5 @@ def _excess(counts: np.ndarray) -> float:
 
 def counts_by_view(metrics: pd.DataFrame) -> pd.DataFrame:
     """Counts by view; a column a (method, count)."""
-    counts = metrics[metrics["metric"].isin([*LOWER, *UPPER])]
+    counts = metrics[metrics["metric"].isin([*COUNTS, *(f"{RANDOM}{name}" for name in COUNTS)])]
     return counts.pivot(index=["view_set", "view"], columns=["method", "metric"], values="value")
