@@ -37,8 +37,8 @@ def _library() -> ctypes.CDLL:
     return library
 
 
-def denoised(colour, albedo, normal, quality: str) -> np.ndarray:
-    """A picture (H, W, 3) in [0, 1] without its noise."""
+def denoised(colour, albedo, normal, quality: str, hdr: bool) -> np.ndarray:
+    """A picture (H, W, 3) without its noise."""
     library = _library()
     device = library.oidnNewDevice(CPU)
     library.oidnSetDeviceInt(device, b"numThreads", 1)
@@ -52,6 +52,7 @@ def denoised(colour, albedo, normal, quality: str) -> np.ndarray:
             network, name, image.ctypes.data, FLOAT3, width, height, 0, 0, 0
         )
     library.oidnSetFilterInt(network, b"quality", QUALITY[quality])
+    library.oidnSetFilterBool(network, b"hdr", hdr)
     library.oidnCommitFilter(network)
     library.oidnExecuteFilter(network)
     message = _TEXT()
@@ -61,8 +62,9 @@ def denoised(colour, albedo, normal, quality: str) -> np.ndarray:
     return output
 
 
+@pytest.mark.parametrize("hdr", [False, True])
 @pytest.mark.parametrize("quality", QUALITIES)
-def test_the_same_picture(quality, measured):
+def test_the_same_picture(quality, hdr, measured):
     rng = np.random.default_rng(0)
     row, column = np.mgrid[:HEIGHT, :WIDTH]
     truth = np.clip((column - 40 + 0.3 * row) / 90, 0, 1)
@@ -70,14 +72,15 @@ def test_the_same_picture(quality, measured):
     normal = np.zeros((HEIGHT, WIDTH, 3), np.float32)
     normal[row > 30] = [0, 0, 1]  # above it nothing is seen
     normal[(row > 30) & (column > 100)] = [0.6, 0.8, 0]
-    # As our way has it: half as bright, so that 1 is not taken for cut off; white where it sees.
-    colour = np.repeat(visibility[..., None] / 2, 3, axis=2)
+    # As our way has it: white where it sees; half as bright where 1 would be taken for cut off.
+    full = 1 if hdr else 0.5
+    colour = np.repeat(visibility[..., None] * np.float32(full), 3, axis=2)
     albedo = np.repeat(normal.any(2)[..., None], 3, axis=2).astype(np.float32)
-    expected = np.clip(2 * denoised(colour, albedo, normal, quality).mean(2), 0, 1)
-    found = open_image_denoise(visibility, normal, quality=quality)
+    expected = np.clip(denoised(colour, albedo, normal, quality, hdr).mean(2) / full, 0, 1)
+    found = open_image_denoise(visibility, normal, quality=quality, hdr=hdr)
     off = found - expected
     measured(
-        f"OIDN {quality}, ours beside its C functions: mean "
+        f"OIDN {quality}, hdr {hdr}, ours beside its C functions: mean "
         f"{off.mean():+.1e}, rms {np.sqrt(np.mean(off**2)):.1e}, largest {np.abs(off).max():.1e}"
     )
     assert np.abs(off).max() < 1e-5

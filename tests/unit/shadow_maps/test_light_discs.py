@@ -77,7 +77,8 @@ def test_blocker_search_within_a_face_and_over_its_rim(seen):
     told = {"radius": RADIUS, "nearest": NEAREST, "searched": 32, "samples": 64, "keys": keys}
     found = soft_disc_visibility(light_map, depths, *receivers, **told)
     distance = np.linalg.norm(from_light, axis=1)
-    widest = RADIUS * (1 / (NEAREST * distance) - 1 / distance)
+    first = light_map.near + NEAREST * (distance - light_map.near)
+    widest = RADIUS * (1 / first - 1 / distance)
     texels, _ = samples_of(light_map, from_light, widest, keys, 32)
     blocks, depth = hidden(light_map, depths, texels, receivers)
     blocker = np.where(blocks, depth, 0).sum(1) / np.maximum(blocks.sum(1), 1)

@@ -85,10 +85,9 @@ def soft_disc_visibility(
 ) -> np.ndarray:
     """Percentage-closer soft shadows of a light of a radius, (n,) float32.
 
-    Blockers are searched at distances from the light of `nearest` of the receiver's and more, behind
-    the map's `near`; their
-    mean distance z̄ determines the width of the penumbra: the light's radius seen from the
-    receiver, at z̄.
+    Blockers are searched from `nearest` of the way from the map's `near` to the receiver on. Of the way
+    from the light itself, a sun's search would always span the scene. Their mean distance z̄ determines
+    the width of the penumbra: the light's radius seen from the receiver, at z̄.
 
     Args:
         from_light: (n, 3) from the light to receivers; normals: (n, 3), geometric; bias: (n,).
@@ -126,7 +125,8 @@ def _fill_soft(
         receiver = _receiver(from_light, normals, bias, i)
         distance = receiver[1]
         u, v = across(*receiver[0], keys[i])
-        widest = radius * (1 / max(nearest * distance, near) - 1 / distance)
+        first = near + nearest * max(distance - near, 0)
+        widest = radius * (1 / first - 1 / distance)
         hidden, total = blockers(
             searched, receiver, u, v, widest, depths, projections, faces, half, resolution
         )

@@ -102,8 +102,9 @@ def _single(kind: type) -> Callable:
     return single
 
 
-def _oidn(picture: np.ndarray, surface: Surface, *, quality: str) -> np.ndarray:
-    return open_image_denoise(picture, surface.image(surface.n), quality=quality)
+def _oidn(picture: np.ndarray, surface: Surface, *, quality: str, hdr: float = 1.0) -> np.ndarray:
+    normal = surface.image(surface.n)
+    return open_image_denoise(picture, normal, quality=quality, hdr=bool(hdr))
 
 
 BY_KEY = {

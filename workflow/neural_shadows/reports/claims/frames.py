@@ -137,7 +137,7 @@ def comparisons(claim: Claim, data: Measured, null: str = "") -> list[Comparison
             winner = table.rays_within(limit, radius)
             if winner is None:
                 text = f"{label} takes {limit:.1f} ms at {table.light(radius)}"
-                why = f"no number of rays of the table takes {LEAST_OF_TIME:.0%} to 100 % of {limit:.1f} ms"
+                why = f"no number of rays of the table takes {100 * LEAST_OF_TIME:.0f} to 100 % of {limit:.1f} ms"
                 outcomes.append(Comparison(metric, label, text, untested=why))
                 continue
         outcomes.append(_comparison(claim, table, metric, radius, (winner, loser), null))
