@@ -13,6 +13,7 @@ from threadpoolctl import threadpool_info
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation import time_frames as timing
 from neural_shadows.evaluation.answers import read_answer
+from neural_shadows.evaluation.flicker import flicker
 from neural_shadows.evaluation.measured_frames import measured_frames
 from neural_shadows.evaluation.method import Method
 from neural_shadows.evaluation.metric_files import read_metrics
@@ -21,6 +22,7 @@ from neural_shadows.evaluation.time_frames import medians
 from neural_shadows.evaluation.time_methods import time_methods
 from neural_shadows.evaluation.tune import tune as tune_stage
 from neural_shadows.frames import soft_frame
+from neural_shadows.frames.uses import RUN_IN
 from neural_shadows.rendering.surface import see_surface
 from neural_shadows.reports.data.soft_costs import describe_times
 
@@ -115,10 +117,10 @@ def test_metrics_of_methods(folder):
     assert np.allclose(nothing["light_leak"] + nothing["false_shadow"], nothing["l1"])
     assert np.all(nothing["light_leak"] > 10 * nothing["false_shadow"])
     # The exact shadow flickers alike, whoever asks; no shadow hardly does.
-    flicker = {method: means(one).loc[1] for method, one in found.items()}
-    same = [one["instability_reference"] for one in flicker.values()]
+    flickers = {method: means(one).loc[1] for method, one in found.items()}
+    same = [one["instability_reference"] for one in flickers.values()]
     assert np.ptp(same) == 0 < same[0]
-    assert flicker["no_shadow"]["instability"] < flicker["hard"]["instability"]
+    assert flickers["no_shadow"]["instability"] < flickers["hard"]["instability"]
 
 
 def test_new_rays_flicker_and_a_filter_calms_them(folder):
@@ -126,6 +128,25 @@ def test_new_rays_flicker_and_a_filter_calms_them(folder):
     noise = {method: one["instability"] for method, one in found.items()}
     assert noise["rt_1"] > 4 * found["rt_1"]["instability_reference"]  # new rays in each frame
     assert noise["rt_1_svgf"] < noise["rt_1"] / 2
+
+
+def test_a_history_is_measured_after_a_rest_in_the_first_view(folder):
+    """Which a method without noise has learned by then: 1 − 0.5 to the number of frames."""
+    steps = []
+
+    def sequence(radius):
+        def step(frame, was):
+            steps.append((frame.number, was is None))
+            return np.full(len(frame.surface.p), 1 - 0.5 ** len(steps), np.float32)
+
+        return step
+
+    method = Method(None, label="grows", sequence=sequence)
+    frames = [*measured_frames([folder / "camera_000.json"], [])]
+    _, values, _ = flicker(frames, method, [{}] * len(RADII), lambda: None)
+    assert len(frames) > 1
+    assert steps == [(number, number <= RUN_IN) for number in range(RUN_IN + len(frames))]
+    assert values["instability"] < 3 * 0.5**RUN_IN < 0.5 * values["instability_reference"]
 
 
 def test_answers_are_kept(folder):

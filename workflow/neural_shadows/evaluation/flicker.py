@@ -1,6 +1,7 @@
 """A method's flicker over a sequence of frames."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -8,6 +9,7 @@ import numpy as np
 from neural_shadows.evaluation.answers import flicker_name
 from neural_shadows.evaluation.measured_frames import MeasuredFrame
 from neural_shadows.evaluation.method import Constants, Method
+from neural_shadows.frames.uses import RUN_IN
 from neural_shadows.metrics.registry import measure
 from neural_shadows.rendering.reprojection import looked_up, seen_before
 
@@ -70,7 +72,8 @@ def _answered(
 ) -> Iterator[tuple[MeasuredFrame, np.ndarray, Seen | None]]:
     """Each frame, the method's image, and what is still visible.
 
-    The last is None at first. A method with a history runs through all frames in turn.
+    The last is None at first. A method with a history runs through all frames in turn, after `RUN_IN`
+    of the first.
     """
     step = before = None
     for now in frames:
@@ -80,8 +83,12 @@ def _answered(
         if method.sequence is None:
             image = now.answered(method, radius, chosen)
         else:
-            step = step or method.sequence(radius, **chosen)
-            image = now.frame.surface.image(step(now.frame, points), 1.0)
+            if step is None:
+                step = method.sequence(radius, **chosen)
+                for number in range(RUN_IN):
+                    step(replace(now.frame, number=number), None)
+            later = replace(now.frame, number=RUN_IN + now.frame.number)
+            image = now.frame.surface.image(step(later, points), 1.0)
         yield now, image, seen
         before = now
 

@@ -52,8 +52,8 @@ def _filtered(surface: "Surface", shares: np.ndarray) -> np.ndarray:
     return depth_aware(surface, shares)
 
 
-_CONSTANTS = {"nearest": (0.2, 0.35, 0.5, 0.65, 0.8)}
-_CONSTANTS |= {"scale": (0.5, 0.7, 1.0, 1.4, 2.0), "bias": (0.1, 0.3, 1.0, 3.0)}
+_CONSTANTS = {"nearest": (0.1, 0.2, 0.35, 0.5, 0.65, 0.8)}
+_CONSTANTS |= {"scale": (0.5, 0.7, 1.0, 1.4, 2.0, 2.8), "bias": (0.1, 0.3, 1.0, 3.0)}
 _PCSS = Method(_visibility, _CONSTANTS, "PCSS")
 _FINE = replace(_PCSS, label="PCSS, map of 2048²", resolution=2048)
 METHODS = {

@@ -6,6 +6,7 @@ from typing import Literal
 import pandas as pd
 from pydantic import Field
 
+from neural_shadows.frames.uses import RUN_IN
 from neural_shadows.metrics.registry import metrics
 from neural_shadows.reports.data.quality_cells import metric_column
 from neural_shadows.reports.data.soft_frames import TrainedFrames, learned_rows
@@ -49,8 +50,8 @@ def table(soft: TrainedFrames) -> Table:
         "in it. Exact: E of the exact shadow, which truly changes with a moving light. Blur lowers E, "
         "so the squared error stands beside it.",
         f"Sequences have a {lights[len(lights) // 2]}. TAA: each frame averaged with the one before, "
-        "at points seen in both. Edges: within 3 pixels of a point light's shadow edges, in "
-        "test frames, of all lights.",
+        f"at points seen in both. What has a history begins with {RUN_IN} frames at rest in the first "
+        "view. Edges: within 3 pixels of a point light's shadow edges, in test frames, of all lights.",
         *soft.notes(),
     ]
     return Table(whole, columns, notes)
