@@ -124,7 +124,7 @@ wildcard_constraints:
     # A scene, SCENE.BATCH or `all`.
     group=rf"[a-z][a-z0-9_]*(\.([0-9]+|{parts.HELD_OUT}))?",
     measure=r"widths\.json|occluders\.npy",
-    part="[a-z]+_[0-9]+",
+    part="[a-z]+(_[a-z]+)?_[0-9]+",
     # Names without an entry in the configuration are refused by the functions below.
     table=r"(?!(claims|expected_minutes|manifest)\b)[a-z][a-z0-9_]*",
     figure="figure_[a-z0-9_]+",

@@ -14,6 +14,7 @@ from neural_shadows.errors import InputError
 from neural_shadows.evaluation import time_frames as timing
 from neural_shadows.evaluation.answers import read_answer
 from neural_shadows.evaluation.flicker import flicker
+from neural_shadows.evaluation.frame import constants_of, sequence_constants_of
 from neural_shadows.evaluation.measured_frames import measured_frames
 from neural_shadows.evaluation.method import Method
 from neural_shadows.evaluation.metric_files import read_metrics
@@ -33,7 +34,7 @@ RADII = FRAMES["radii"]
 def folder(tmp_path_factory):
     """Parts of two uses and of two sequences, in the folder of their scene."""
     folder = tmp_path_factory.mktemp("results") / "blinds"
-    for use in ("validation", "test", "camera", "light"):
+    for use in ("validation", "validation_both", "test", "camera", "light"):
         render_part(folder, use)
     (folder / "lpips.json").write_text(json.dumps({"available": False}))
     return folder
@@ -147,6 +148,40 @@ def test_a_history_is_measured_after_a_rest_in_the_first_view(folder):
     assert len(frames) > 1
     assert steps == [(number, number <= RUN_IN) for number in range(RUN_IN + len(frames))]
     assert values["instability"] < 3 * 0.5**RUN_IN < 0.5 * values["instability_reference"]
+
+
+def test_constants_for_sequences_are_chosen_with_the_history(folder):
+    """And are those that an evaluation takes there, by any radius."""
+    out, sequence = folder / "rt_1_svgf.json", folder / "validation_both_000.json"
+    tune_stage(
+        [folder / "validation_000.json"], [], [], out, sequences=[sequence], method="rt_1_svgf"
+    )
+    record, method = json.loads(out.read_text()), frame_method("rt_1_svgf")
+    frames = [*measured_frames([sequence], [])]
+    errors = {
+        value: flicker(frames, method, [{"sigma_luminance": value}] * len(RADII), lambda: None)[1]
+        for value in method.constants["sigma_luminance"]
+    }
+    best = min(errors, key=lambda value: errors[value]["mse_sequence"])
+    assert record["history"]["constants"] == {"sigma_luminance": best}
+    tried = [each["mse"] for each in record["history"]["tried"]]
+    assert tried == [each["mse_sequence"] for each in errors.values()]
+    assert len(set(tried)) > 3  # the constant has an effect
+    assert sequence_constants_of(out, 3) == [{"sigma_luminance": best}] * 3
+    assert [each["constants"] for each in record["radii"]] == constants_of(out)
+    assert sequence_constants_of(None, 2) == [{}] * 2
+    target = folder / "rt_1_svgf.csv", folder / "rt_1_svgf.npz"
+    evaluate_frames(
+        [folder / "test_000.json"],
+        folder / "lpips.json",
+        target,
+        sequences=[sequence],
+        constants=out,
+        method="rt_1_svgf",
+    )
+    measured = read_metrics([target[0]])
+    (mse,) = measured[measured["metric"] == "mse_sequence"]["value"]
+    assert mse == pytest.approx(errors[best]["mse_sequence"])
 
 
 def test_answers_are_kept(folder):

@@ -136,8 +136,29 @@ def test_a_change_of_one_kind_of_frames_is_none_of_the_other(desk):
     scenes = frame_sets.generators(desk, "frames")
     names = {"measured_frames", "frame_metrics", "pcss", "sphere"}
     assert {path.stem for path in of_frames - scenes} == names and len(scenes) > 9
+    # Of a filter over time a sequence is measured, too.
+    of_history = evaluations.modules(desk, "tune", "frames", ["rt_1_svgf"]) - scenes
+    assert {path.stem for path in of_history} == {
+        "measured_frames",
+        "frame_metrics",
+        "denoised",
+        "sphere",
+    }
     of_network = evaluations.modules(desk, "tune", "windows", ["kpnsm"])
     assert {"kernels", "screen_network_method"} < {path.stem for path in of_network}
+
+
+def test_filters_over_time_have_a_sequence_of_their_own_for_their_constants(desk):
+    files = {
+        name: evaluations.tuned_files(desk, "frames", "all", name)["sequences"]
+        for name in ("rt_1_svgf", "rt_1_oidn", "pcss")
+    }
+    (sequence,) = files.pop("rt_1_svgf")
+    assert sequence == "results/frames/frames/room_dragon/validation_both_000.json"
+    assert sequence not in evaluations.evaluated_files(desk, "frames", "all", "pcss")["sequences"]
+    assert set(map(tuple, files.values())) == {()}
+    settings = frame_sets.frame_settings(desk, "room_dragon", "frames", "validation_both_000")
+    assert settings["last"] == 5 and settings["samples"] == 4
 
 
 def test_unseen_scenes_may_have_more_test_frames():

@@ -14,6 +14,7 @@ from neural_shadows.evaluation.frame import (
     are_views,
     constants_of,
     module_of,
+    sequence_constants_of,
 )
 from neural_shadows.evaluation.metric_files import write_metrics
 from neural_shadows.metrics.registry import image_metrics
@@ -63,6 +64,7 @@ def evaluate(
     kind, measures = (module_of(names, are_views(frames)) for names in (KIND, METRICS))
     method_of = kind.open_methods(method, inputs)
     constants = constants_of(constants_json, kind.count_radii(frames[0]))
+    in_sequences = sequence_constants_of(constants_json, len(constants))
     if bias:
         constants = [{"depth_bias": bias}]
     images = image_metrics(measures.LIGHT, lpips_json, threads)
@@ -82,7 +84,7 @@ def evaluate(
             if scene_method is None:
                 bar.update(sum(1 for _ in of_file))
             elif path in sequences:
-                add(*measures.flicker(of_file, scene_method, constants, bar.update))
+                add(*measures.flicker(of_file, scene_method, in_sequences, bar.update))
             else:
                 for frame in of_file:
                     for k, shares in enumerate(frame.visibilities(scene_method, constants)):

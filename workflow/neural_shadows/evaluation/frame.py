@@ -71,3 +71,9 @@ def are_views(frames: Sequence[Path]) -> bool:
 def constants_of(path: Path | None, radii: int = 1) -> list[Constants]:
     """Constants by radius, of `tune`; empty without a path."""
     return [each["constants"] for each in read_json(path)["radii"]] if path else [{}] * radii
+
+
+def sequence_constants_of(path: Path | None, radii: int) -> list[Constants]:
+    """Constants by radius for sequences: those chosen with a history, if any were."""
+    history = read_json(path).get("history") if path else None
+    return [history["constants"]] * radii if history else constants_of(path, radii)

@@ -1,13 +1,15 @@
 """Stage: a method's constants of least error, on validation frames."""
 
-from collections.abc import Sequence
-from itertools import product
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from itertools import groupby, product
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import numpy as np
 
-from neural_shadows.evaluation.frame import KIND, Inputs, are_views, module_of
+from neural_shadows.evaluation.frame import KIND, METRICS, Inputs, are_views, module_of
 from neural_shadows.evaluation.method import Constants, Method
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.running.origin import describe_origin
@@ -22,6 +24,7 @@ def tune(
     weights: list[Path],
     constants_json: Path,
     *,
+    sequences: list[Path] = (),
     fields: list[Path] = (),
     method: str,
     scene: SceneSettings | None = None,
@@ -37,10 +40,13 @@ def tune(
 
     Args:
         frames: validation frames of all scenes, or held-out views of one, which no evaluation uses.
+        sequences: on which a method with a history has its constants chosen once more, at the middle
+            radius, for sequences alone; none of a method without.
         meshes, weights, fields, scene, device, precision: see `Inputs`.
         constants_json: `candidates` by constant; by radius, as `radii`, the best `constants`, their
             `error`, `tried`, errors of the last constant's candidates or of all settings in order,
-            by term, and `at_end`, the constants whose best value may lie beyond the candidates.
+            by term, and `at_end`, the constants whose best value may lie beyond the candidates;
+            `history`, of sequences, if any: the best `constants`, and the last's errors, `tried`.
         method: the method's key, without a bias.
 
     Raises:
@@ -72,7 +78,39 @@ def tune(
                 value = f"{name.replace('_', ' ')}, {settings[chosen][name]}"
                 print(f"{method}: the best {value}, ends the search")  # the table says so, too
     about = {"method": method, "frames": kind.count_frames(frames), "candidates": candidates}
-    write_json(constants_json, about | {"radii": by_radius} | describe_origin())
+    about |= {"radii": by_radius}
+    if sequences:
+        in_sequence = replace(inputs, frames=sequences)
+        about["history"] = _with_history(in_sequence, method, candidates, by_radius)
+    write_json(constants_json, about | describe_origin())
+
+
+def _with_history(
+    inputs: Inputs,
+    method: str,
+    candidates: Mapping[str, Sequence[float]],
+    by_radius: Sequence[Mapping[str, Any]],
+) -> dict[str, Any]:
+    """Constants of least squared error over sequences, one after another, from those of frames on."""
+    kind, measures = (module_of(names, views=False) for names in (KIND, METRICS))
+    frames, tuned = [*kind.open_frames(inputs)], kind.open_methods(method, inputs)(None)
+    best: dict[str, Any] = {"constants": by_radius[len(by_radius) // 2]["constants"]}
+    total = len(frames) * sum(map(len, candidates.values()))
+    with progress_bar(total, "frames", f"tune the history of {method}") as bar:
+        for name, values in candidates.items():
+            tried = []
+            for value in values:
+                constants = best["constants"] | {name: value}
+                of_files = groupby(frames, lambda frame: frame.path)
+                errors = [
+                    measures.flicker(part, tuned, [constants] * len(by_radius), bar.update)[1]
+                    for _, part in of_files
+                ]
+                mse = float(np.mean([each["mse_sequence"] for each in errors]))
+                tried.append(constants | {"mse": mse})
+            least = min(tried, key=lambda setting: setting["mse"])
+            best = {"constants": best["constants"] | {name: least[name]}, "tried": tried}
+    return best
 
 
 def _errors(

@@ -16,7 +16,7 @@ from neural_shadows.frames.frame_set import UNITS
 from neural_shadows.frames.render_frame import render_buffers, render_rays, render_target
 from neural_shadows.frames.setting import Setting
 from neural_shadows.frames.soft_scene import SoftScene
-from neural_shadows.frames.uses import SEQUENCES, USES
+from neural_shadows.frames.uses import USES, motion_of
 from neural_shadows.rendering.light_shape import light_shape
 from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.progress import progress_bar
@@ -57,7 +57,7 @@ def render_frames(
         scene: see `SoftScene`. name: its, in the configuration.
         seed: of the run; the scene's layout has its own.
         frames: of the set, see `FrameSettings`.
-        use: `train`, `validation`, `test`, or the kind of motion of a sequence.
+        use: one of `USES`.
         samples: see `soft_visibility`.
         twins: perturbed frames of each frame.
         rays: of a pixel, for networks that filter them; 0 for none.
@@ -146,8 +146,8 @@ def draw(
         streams: see `streams_of`.
     """
     stream = USES.index(use)
-    if use in SEQUENCES:
-        return draw_sequence(scene, kind, use, last, np.random.default_rng((*streams, stream)))
+    if motion := motion_of(use):
+        return draw_sequence(scene, kind, motion, last, np.random.default_rng((*streams, stream)))
     return [
         draw_setting(scene, kind, np.random.default_rng((*streams, stream, number)))
         for number in range(first, last)

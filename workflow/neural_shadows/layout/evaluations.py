@@ -37,6 +37,9 @@ def tuned_files(layout: Layout, frame_set: str, group: str, method: str) -> dict
         }
     return {
         "frames": frame_sets.validations(layout, frame_set),
+        "sequences": frame_sets.tuned_sequences(layout, frame_set)
+        if frame_methods.has_history(method)
+        else [],
         "meshes": frame_sets.all_meshes(layout, frame_set),
         "weights": [],
         "fields": frame_methods.fields(layout, frame_set, method),
@@ -167,6 +170,8 @@ def modules(layout: Layout, stage: str, frame_set: str, methods: Iterable[str]) 
     imported |= method_modules(methods)
     if views:
         return imported | layout.network_modules(map(unbiased, filter(is_network, methods)))
+    if stage == "tune" and any(map(frame_methods.has_history, methods)):
+        imported.add(frame.module_file(frame.METRICS[1]))
     networks = frame_methods.network_modules(layout, methods)
     imported |= {frame.module_file("screen_network_method") for _ in networks}
     return imported | networks | frame_sets.modules(layout, frame_set)

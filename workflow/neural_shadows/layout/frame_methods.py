@@ -29,6 +29,11 @@ def fields(layout: Layout, frame_set: str, method: str) -> list[str]:
     return [layout.paths.soft_fields(frame_set)] if frame_method(method).fields and not own else []
 
 
+def has_history(method: str) -> bool:
+    """Check for a method that uses the frames before, in a sequence."""
+    return not is_network(method) and frame_method(method).sequence is not None
+
+
 def occluders(layout: Layout, frame_set: str, method: str) -> list[str]:
     """Occluders of test frames, for networks on rendered frames only."""
     if not is_network(method) or layout.frames(frame_set)["path"] is not None:

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from neural_shadows.frames.uses import SEQUENCES, USES
+from neural_shadows.frames.uses import SEQUENCES, TUNED_SEQUENCE, USES, motion_of
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import part_names
 from neural_shadows.rendering.light_shape import shape_module
@@ -35,7 +35,9 @@ def frame_settings(layout: Layout, scene: str, frame_set: str, part: str) -> dic
         "first": first,
         "last": min(first + shard, total),
         # Noise of targets adds equally to all errors: choosing among them needs few rays.
-        "samples": settings["samples"]["train" if use in ("train", "validation") else "measured"],
+        "samples": settings["samples"][
+            "train" if use in ("train", "validation", TUNED_SEQUENCE) else "measured"
+        ],
         "twins": settings["twins"]["count"] * is_training,
         # A method of rays traces its own in tests.
         "rays": settings["rays"] * (use in ("train", "validation")),
@@ -52,7 +54,7 @@ def _arrangement(layout: Layout, scene: str, use: str, number: int) -> dict[str,
 
 def _counts(layout: Layout, settings: Mapping[str, Any], scene: str, use: str) -> tuple[int, int]:
     """Frames of a scene and use, and frames per part."""
-    if use in SEQUENCES:
+    if motion_of(use):
         return settings["sequence"], max(settings["sequence"], 1)
     total = settings[use]
     if use == "test" and scene in settings["unseen"]:
@@ -174,12 +176,20 @@ def all_meshes(layout: Layout, frame_set: str) -> list[str]:
 
 
 def sequences(layout: Layout, frame_set: str) -> list[str]:
-    """Sequence parts of a frame set, of its first scene."""
+    """Measured sequences of a frame set, of its first scene."""
+    return [part for use in SEQUENCES for part in _of_first(layout, frame_set, use)]
+
+
+def tuned_sequences(layout: Layout, frame_set: str) -> list[str]:
+    """The sequence on which constants are chosen, of the first scene."""
+    return _of_first(layout, frame_set, TUNED_SEQUENCE)
+
+
+def _of_first(layout: Layout, frame_set: str, use: str) -> list[str]:
     settings = layout.frames(frame_set)
     if settings["path"] is not None:
         return []
-    first = settings["scenes"][0]
-    return [part for use in SEQUENCES for part in parts(layout, first, frame_set, use)]
+    return parts(layout, settings["scenes"][0], frame_set, use)
 
 
 def first_tests(layout: Layout, frame_set: str) -> list[str]:

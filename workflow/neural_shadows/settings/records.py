@@ -129,6 +129,7 @@ class Tuned(TypedDict, total=False):
     method: str
     candidates: dict[str, list[float]]
     radii: list[TunedRadius]
+    history: TunedRadius  # for sequences, of a method with a history
 
 
 class FeatureShare(TypedDict):
