@@ -6,7 +6,7 @@ import shutil
 from collections.abc import Iterable
 from pathlib import Path
 
-from neural_shadows.running.module_graph import modules_of
+from neural_shadows.running.module_graph import digest, modules_of
 from neural_shadows.settings.records import WeightsHeader
 
 # Beside the networks' folders, with a folder `<experiment>-<digest>` for each training.
@@ -27,11 +27,10 @@ def checkpoint_folder(weights: Path, header: WeightsHeader, code: Iterable[Path]
         weights: `networks/<experiment>/weights.safetensors`; header: of that file.
         code: modules of the training's stage and its network's kind.
     """
-    digest = hashlib.sha256(json.dumps(header, sort_keys=True).encode())
-    for module in code:
-        for path in modules_of(module):
-            digest.update(path.read_bytes())
-    return weights.parents[1] / CHECKPOINTS / f"{header['name']}-{digest.hexdigest()[:16]}"
+    modules = {path for module in code for path in modules_of(module)}
+    content = f"{json.dumps(header, sort_keys=True)} {digest(modules)}"
+    name = hashlib.sha256(content.encode()).hexdigest()[:16]
+    return weights.parents[1] / CHECKPOINTS / f"{header['name']}-{name}"
 
 
 def remove_finished(networks: Path) -> None:
