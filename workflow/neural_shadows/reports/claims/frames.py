@@ -13,12 +13,13 @@ from neural_shadows.frames.feature_names import BASES
 from neural_shadows.layout import tables
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.report_inputs import Report
-from neural_shadows.metrics.intervals import FEWEST_SCENES, FEWEST_VIEWS, scenes_interval
+from neural_shadows.metrics.intervals import FEWEST_SCENES, FEWEST_VIEWS, kinds_of, scenes_interval
 from neural_shadows.metrics.registry import frame_metrics, metrics
 from neural_shadows.reports.claims import screen_networks
 from neural_shadows.reports.claims.comparison import Comparison, judged, of_all_pixels, seeds_of
 from neural_shadows.reports.claims.measured import Claim, Measured, needs
 from neural_shadows.reports.data.digits import short
+from neural_shadows.reports.data.frame_means import count_scenes
 from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.records import SoftTimes
 
@@ -223,11 +224,12 @@ def _comparison(
     first, second = (each.to_numpy() for each in frames)
     gain = pd.DataFrame(second - first, frames[0].index).dropna()  # broadcasts one run over several
     scenes = gain.index.get_level_values("scene").to_numpy()
-    count = len(set(scenes))
-    if count < FEWEST_SCENES and len(gain) < FEWEST_VIEWS:
+    count, kinds = len(set(scenes)), len(set(kinds_of(scenes)))
+    if kinds < FEWEST_SCENES and len(gain) < FEWEST_VIEWS:
         return Comparison(**fields, untested=f"{len(gain)} frames are too few")
-    units = f"{count} scenes" if count >= FEWEST_SCENES else f"{len(gain)} frames in {count} scene"
-    units += "s" * (1 < count < FEWEST_SCENES)
+    units = f"{len(gain)} frames in {count} scene{'s' * (count > 1)}"
+    if kinds >= FEWEST_SCENES:
+        units = count_scenes([*set(scenes)])
     interval = scenes_interval(gain.to_numpy().T, scenes)
     outcome = Comparison(**fields, **judged(*interval), remark=f" over {units}")
     return outcome if seeds is None or seeds >= needed else outcome.without(seeds_of(seeds, needed))

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
-from neural_shadows.metrics.intervals import FEWEST_SCENES, scenes_interval
+from neural_shadows.metrics.intervals import FEWEST_SCENES, kinds_of, scenes_interval
 from neural_shadows.reports.data.table import with_ends
 
 OFF_EDGES = "mse_off_edges"
@@ -61,11 +61,17 @@ def by_frame(errors: pd.DataFrame, metric: str) -> pd.Series:
     return values.groupby(["scene", "part", "frame"])["value"].mean()
 
 
+def count_scenes(scenes: Sequence[str]) -> str:
+    """Count scenes in words, and their kinds if these are fewer."""
+    kinds = len(set(kinds_of(scenes)))
+    return f"{len(scenes)} scenes" + (f" of {kinds} kinds" if kinds < len(scenes) else "")
+
+
 def describe_units(scenes: Sequence[str], frames: int) -> str:
     """Describe the sample of an interval over `frames` frames in all."""
     count = len(scenes)
-    if count >= FEWEST_SCENES:
-        return f"95 % over {count} scenes, by Student's t of their means, of equal weight"
+    if len(set(kinds_of(scenes))) >= FEWEST_SCENES:
+        return f"95 % over {count_scenes(scenes)}, by Student's t of their means, of equal weight"
     if count == 1:
         return f"95 % over {frames} frames of one scene, {scenes[0]}; not valid for others"
     return f"95 % over {frames} frames in {count} scenes, {', '.join(scenes)}; not valid for others"
