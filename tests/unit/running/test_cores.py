@@ -56,6 +56,25 @@ def test_takes_what_others_leave(start):
     assert [path.name for path in FOLDER.iterdir()] == [str(os.getpid())]
 
 
+def test_a_new_file_that_another_job_removes_is_made_again(start, monkeypatch):
+    """A job that looks between the opening and the lock sees a file without one."""
+    locked, told = fcntl.flock, []
+
+    def flock(file, operation):
+        told.append(operation)
+        if len(told) == 1:
+            raise BlockingIOError(errno.EAGAIN, "locked by the job that looks")
+        if len(told) == 2:
+            (FOLDER / str(os.getpid())).unlink()
+        locked(file, operation)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(fcntl, "flock", flock)
+        job = JobCores(3)
+    assert len(told) == 3 and job.locks
+    assert (FOLDER / str(os.getpid())).read_text().strip() == "3"
+
+
 def test_keeps_its_own_cores_where_others_have_them_all(start):
     job = JobCores(2)
     start(4)

@@ -21,13 +21,24 @@ class JobCores:
         self.count = count
         FOLDER.mkdir(parents=True, exist_ok=True)
         self.path = FOLDER / str(os.getpid())
+        while not self._open():
+            pass
+        self._tell(count)
+
+    def _open(self) -> bool:
+        """Open and lock the file, unless another job just then takes it for an ended one's."""
         self.file = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_TRUNC)
+        self.locks = removed = False
         try:
             fcntl.flock(self.file, fcntl.LOCK_SH | fcntl.LOCK_NB)
-            self.locks = True
+            self.locks, removed = True, os.fstat(self.file).st_nlink == 0
+        except BlockingIOError:
+            removed = True
         except OSError:  # a file system without locks, as Lustre often is
-            self.locks = False
-        self._tell(count)
+            pass
+        if removed:
+            os.close(self.file)
+        return not removed
 
     def take_idle(self, run_cores: int, most: int) -> int:
         """Take those of a run's cores that no other job has; return how many the job has now.
