@@ -140,7 +140,7 @@ def test_a_change_of_one_kind_of_frames_is_none_of_the_other(desk):
     of_history = evaluations.modules(desk, "tune", "frames", ["rt_1_svgf"]) - scenes
     assert {path.stem for path in of_history} == {
         "measured_frames",
-        "frame_metrics",
+        "sequences",
         "denoised",
         "sphere",
     }

@@ -1,7 +1,6 @@
 """A method's flicker over a sequence of frames."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -9,9 +8,9 @@ import numpy as np
 from neural_shadows.evaluation.answers import flicker_name
 from neural_shadows.evaluation.measured_frames import MeasuredFrame
 from neural_shadows.evaluation.method import Constants, Method
-from neural_shadows.frames.uses import RUN_IN
+from neural_shadows.evaluation.sequences import answer_sequence
 from neural_shadows.metrics.registry import measure
-from neural_shadows.rendering.reprojection import looked_up, seen_before
+from neural_shadows.rendering.reprojection import looked_up
 
 
 def flicker(
@@ -29,7 +28,7 @@ def flicker(
     """
     changes: dict[str, list[np.ndarray]] = {"": [], "_reference": [], "_taa": []}
     errors: dict[str, list[float]] = {"_sequence": [], "_taa": []}
-    images = _answered(frames, method, constants)
+    images = answer_sequence(frames, method, constants)
     before, last, _ = next(images)
     averaged = last
     sums = {name: np.zeros(last.size, np.float32) for name in changes}
@@ -62,44 +61,3 @@ def flicker(
     path = part.frames_json
     named = {flicker_name(path): maps[""], flicker_name(path, True): maps["_reference"]}
     return key, values, named
-
-
-Seen = tuple[np.ndarray, np.ndarray]
-
-
-def _answered(
-    frames: Iterable[MeasuredFrame], method: Method, constants: Sequence[Constants]
-) -> Iterator[tuple[MeasuredFrame, np.ndarray, Seen | None]]:
-    """Each frame, the method's image, and what is still visible.
-
-    The last is None at first. A method with a history runs through all frames in turn, after `RUN_IN`
-    of the first.
-    """
-    step = before = None
-    for now in frames:
-        k = now.middle
-        radius, chosen = now.part.radii[k], constants[k]
-        seen, points = _seen(before, now) if before else (None, None)
-        if method.sequence is None:
-            image = now.answered(method, radius, chosen)
-        else:
-            if step is None:
-                step = method.sequence(radius, **chosen)
-                for number in range(RUN_IN):
-                    step(replace(now.frame, number=number), None)
-            later = replace(now.frame, number=RUN_IN + now.frame.number)
-            image = now.frame.surface.image(step(later, points), 1.0)
-        yield now, image, seen
-        before = now
-
-
-def _seen(before: MeasuredFrame, now: MeasuredFrame) -> tuple[Seen, np.ndarray]:
-    """Reprojection of valid points into the previous frame.
-
-    Accepted points and their pixels there (see `seen_before`), and their previous positions (n, 3).
-    """
-    surface, scene = now.frame.surface, now.scene
-    motions = (frame.part.setting(frame.number).motion for frame in (now, before))
-    points_before = scene.before(now.frame.scene, surface.face, surface.p, *motions)
-    accepted, pixels_before = seen_before(surface, before.frame.surface, points_before)
-    return (accepted & now.valid.ravel()[surface.pixel], pixels_before), points_before

@@ -22,6 +22,7 @@ from neural_shadows.settings.records import SceneSettings
 KIND = "views", "measured_frames"
 METRICS = "view_metrics", "frame_metrics"
 TIMES = "time_views", "time_frames"
+SEQUENCES = "sequences"  # of frames alone
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from importlib import import_module
 from itertools import groupby, product
 from pathlib import Path
 from types import ModuleType
@@ -9,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from neural_shadows.evaluation.frame import KIND, METRICS, Inputs, are_views, module_of
+from neural_shadows.evaluation.frame import KIND, SEQUENCES, Inputs, are_views, module_of
 from neural_shadows.evaluation.method import Constants, Method
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.running.origin import describe_origin
@@ -92,7 +93,7 @@ def _with_history(
     by_radius: Sequence[Mapping[str, Any]],
 ) -> dict[str, Any]:
     """Constants of least squared error over sequences, one after another, from those of frames on."""
-    kind, measures = (module_of(names, views=False) for names in (KIND, METRICS))
+    kind, answers = module_of(KIND, views=False), import_module(f"{__package__}.{SEQUENCES}")
     frames, tuned = [*kind.open_frames(inputs)], kind.open_methods(method, inputs)(None)
     best: dict[str, Any] = {"constants": by_radius[len(by_radius) // 2]["constants"]}
     total = len(frames) * sum(map(len, candidates.values()))
@@ -103,11 +104,11 @@ def _with_history(
                 constants = best["constants"] | {name: value}
                 of_files = groupby(frames, lambda frame: frame.path)
                 errors = [
-                    measures.flicker(part, tuned, [constants] * len(by_radius), bar.update)[1]
+                    answers.squared_error(part, tuned, [constants] * len(by_radius))
                     for _, part in of_files
                 ]
-                mse = float(np.mean([each["mse_sequence"] for each in errors]))
-                tried.append(constants | {"mse": mse})
+                tried.append(constants | {"mse": float(np.mean(errors))})
+                bar.update(len(frames))
             least = min(tried, key=lambda setting: setting["mse"])
             best = {"constants": best["constants"] | {name: least[name]}, "tried": tried}
     return best

@@ -171,7 +171,7 @@ def modules(layout: Layout, stage: str, frame_set: str, methods: Iterable[str]) 
     if views:
         return imported | layout.network_modules(map(unbiased, filter(is_network, methods)))
     if stage == "tune" and any(map(frame_methods.has_history, methods)):
-        imported.add(frame.module_file(frame.METRICS[1]))
+        imported.add(frame.module_file(frame.SEQUENCES))
     networks = frame_methods.network_modules(layout, methods)
     imported |= {frame.module_file("screen_network_method") for _ in networks}
     return imported | networks | frame_sets.modules(layout, frame_set)
