@@ -59,6 +59,11 @@ def module_of(names: tuple[str, str], views: bool) -> ModuleType:
     return import_module(f"{__package__}.{names[not views]}")
 
 
+def sequences_module() -> ModuleType:
+    """The module of answers to sequences; a view has none."""
+    return import_module(f"{__package__}.{SEQUENCES}")
+
+
 def module_file(name: str) -> Path:
     """File of a module imported by name."""
     return Path(__file__).with_name(f"{name}.py")

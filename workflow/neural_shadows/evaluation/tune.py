@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from importlib import import_module
 from itertools import groupby, product
 from pathlib import Path
 from types import ModuleType
@@ -10,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from neural_shadows.evaluation.frame import KIND, SEQUENCES, Inputs, are_views, module_of
+from neural_shadows.evaluation.frame import KIND, Inputs, are_views, module_of, sequences_module
 from neural_shadows.evaluation.method import Constants, Method
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.running.origin import describe_origin
@@ -93,7 +92,7 @@ def _with_history(
     by_radius: Sequence[Mapping[str, Any]],
 ) -> dict[str, Any]:
     """Constants of least squared error over sequences, one after another, from those of frames on."""
-    kind, answers = module_of(KIND, views=False), import_module(f"{__package__}.{SEQUENCES}")
+    kind, answers = module_of(KIND, views=False), sequences_module()
     frames, tuned = [*kind.open_frames(inputs)], kind.open_methods(method, inputs)(None)
     best: dict[str, Any] = {"constants": by_radius[len(by_radius) // 2]["constants"]}
     total = len(frames) * sum(map(len, candidates.values()))
