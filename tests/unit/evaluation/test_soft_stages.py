@@ -153,9 +153,7 @@ def test_a_history_is_measured_after_a_rest_in_the_first_view(folder):
 def test_constants_for_sequences_are_chosen_with_the_history(folder):
     """And are those that an evaluation takes there, by any radius."""
     out, sequence = folder / "rt_1_svgf.json", folder / "validation_both_000.json"
-    tune_stage(
-        [folder / "validation_000.json"], [], [], out, sequences=[sequence], method="rt_1_svgf"
-    )
+    tune_stage([folder / "validation_000.json"], [], [], out, sequence=sequence, method="rt_1_svgf")
     record, method = json.loads(out.read_text()), frame_method("rt_1_svgf")
     frames = [*measured_frames([sequence], [])]
     errors = {

@@ -150,7 +150,7 @@ def test_a_change_of_one_kind_of_frames_is_none_of_the_other(desk):
 
 def test_filters_over_time_have_a_sequence_of_their_own_for_their_constants(desk):
     files = {
-        name: evaluations.tuned_files(desk, "frames", "all", name)["sequences"]
+        name: evaluations.tuned_files(desk, "frames", "all", name)["sequence"]
         for name in ("rt_1_svgf", "rt_1_oidn", "pcss")
     }
     (sequence,) = files.pop("rt_1_svgf")

@@ -56,7 +56,7 @@ def test_takes_what_others_leave(start):
     assert [path.name for path in FOLDER.iterdir()] == [str(os.getpid())]
 
 
-def test_a_new_file_that_another_job_removes_is_made_again(start, monkeypatch):
+def test_a_new_file_that_another_job_removes_is_made_again(monkeypatch):
     """A job that looks between the opening and the lock sees a file without one."""
     locked, told = fcntl.flock, []
 

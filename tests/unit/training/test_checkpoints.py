@@ -38,8 +38,12 @@ def test_other_code_of_the_network_s_class_has_another_checkpoint(tmp_path, monk
     network = PACKAGE / "networks/object_space/frequency_network.py"
     ours = folder_of(tmp_path)
     assert ours == folder_of(tmp_path, kind=network)
-    monkeypatch.setattr(checkpoints, "digest", lambda modules: str(network in modules))
+    digested = []
+    monkeypatch.setattr(
+        checkpoints, "digest", lambda modules: digested.append(modules) or "another"
+    )
     assert folder_of(tmp_path) != ours
+    assert network in digested[0] and KIND not in digested[0]
 
 
 def test_checkpoints_of_finished_networks_are_removed(tmp_path):

@@ -22,7 +22,7 @@ from neural_shadows.settings.records import SceneSettings
 KIND = "views", "measured_frames"
 METRICS = "view_metrics", "frame_metrics"
 TIMES = "time_views", "time_frames"
-SEQUENCES = "sequences"  # of frames alone
+OF_SEQUENCES = "sequences"  # a view has none
 
 
 @dataclass(frozen=True)
@@ -60,8 +60,8 @@ def module_of(names: tuple[str, str], views: bool) -> ModuleType:
 
 
 def sequences_module() -> ModuleType:
-    """The module of answers to sequences; a view has none."""
-    return import_module(f"{__package__}.{SEQUENCES}")
+    """The module of answers to sequences of frames."""
+    return import_module(f"{__package__}.{OF_SEQUENCES}")
 
 
 def module_file(name: str) -> Path:

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from itertools import groupby, product
+from itertools import product
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -24,7 +24,7 @@ def tune(
     weights: list[Path],
     constants_json: Path,
     *,
-    sequences: list[Path] = (),
+    sequence: Path | None = None,
     fields: list[Path] = (),
     method: str,
     scene: SceneSettings | None = None,
@@ -40,13 +40,13 @@ def tune(
 
     Args:
         frames: validation frames of all scenes, or held-out views of one, which no evaluation uses.
-        sequences: on which a method with a history has its constants chosen once more, at the middle
-            radius, for sequences alone; none of a method without.
+        sequence: on which a method with a history has its constants chosen once more, at the middle
+            radius, for sequences alone; None of a method without.
         meshes, weights, fields, scene, device, precision: see `Inputs`.
         constants_json: `candidates` by constant; by radius, as `radii`, the best `constants`, their
             `error`, `tried`, errors of the last constant's candidates or of all settings in order,
             by term, and `at_end`, the constants whose best value may lie beyond the candidates;
-            `history`, of sequences, if any: the best `constants`, and the last's errors, `tried`.
+            `history`, of a sequence: likewise `constants`, `tried` and `at_end`.
         method: the method's key, without a bias.
 
     Raises:
@@ -79,8 +79,8 @@ def tune(
                 print(f"{method}: the best {value}, ends the search")  # the table says so, too
     about = {"method": method, "frames": kind.count_frames(frames), "candidates": candidates}
     about |= {"radii": by_radius}
-    if sequences:
-        in_sequence = replace(inputs, frames=sequences)
+    if sequence:
+        in_sequence = replace(inputs, frames=[sequence])
         about["history"] = _with_history(in_sequence, method, candidates, by_radius)
     write_json(constants_json, about | describe_origin())
 
@@ -91,25 +91,23 @@ def _with_history(
     candidates: Mapping[str, Sequence[float]],
     by_radius: Sequence[Mapping[str, Any]],
 ) -> dict[str, Any]:
-    """Constants of least squared error over sequences, one after another, from those of frames on."""
+    """Constants of least squared error over a sequence, one after another, from those of frames on."""
     kind, answers = module_of(KIND, views=False), sequences_module()
     frames, tuned = [*kind.open_frames(inputs)], kind.open_methods(method, inputs)(None)
-    best: dict[str, Any] = {"constants": by_radius[len(by_radius) // 2]["constants"]}
+    best: dict[str, Any] = {"constants": by_radius[len(by_radius) // 2]["constants"], "at_end": []}
     total = len(frames) * sum(map(len, candidates.values()))
     with progress_bar(total, "frames", f"tune the history of {method}") as bar:
         for name, values in candidates.items():
-            tried = []
-            for value in values:
-                constants = best["constants"] | {name: value}
-                of_files = groupby(frames, lambda frame: frame.path)
-                errors = [
-                    answers.squared_error(part, tuned, [constants] * len(by_radius))
-                    for _, part in of_files
-                ]
-                tried.append(constants | {"mse": float(np.mean(errors))})
+            settings = [best["constants"] | {name: value} for value in values]
+            errors = []
+            for constants in settings:
+                errors.append(answers.squared_error(frames, tuned, [constants] * len(by_radius)))
                 bar.update(len(frames))
-            least = min(tried, key=lambda setting: setting["mse"])
-            best = {"constants": best["constants"] | {name: least[name]}, "tried": tried}
+            chosen = int(np.argmin(errors))
+            best["constants"] = settings[chosen]
+            best["tried"] = [setting | {"mse": mse} for setting, mse in zip(settings, errors)]
+            if _at_end(name, values, settings, errors, chosen):
+                best["at_end"].append(name)
     return best
 
 
@@ -146,7 +144,7 @@ def _at_end(
     name: str,
     candidates: Sequence[float],
     settings: Sequence[Constants],
-    errors: np.ndarray,
+    errors: Sequence[float],
     chosen: int,
 ) -> bool:
     """Check for a best value at an end of its candidates.

@@ -16,8 +16,8 @@ class Violations(NamedTuple):
     only where another surface lies between, as a light leak. False shadow can only be where a point
     is lit, and a leak where it is not: how many of the violations are there is counted too, or
     random depths would confirm it, by the share of points that are lit.
-    They confirm it even so: a lit point is before the first hit or far behind the object, so that a
-    depth before it nearly always darkens the point. `random_depths` are therefore counted as well.
+    They confirm it even so: a lit point is the first hit itself, or on a ray that misses, so that a
+    depth short of the bound nearly always darkens it. `random_depths` are therefore counted as well.
     """
 
     queries: int

@@ -37,7 +37,7 @@ def tuned_files(layout: Layout, frame_set: str, group: str, method: str) -> dict
         }
     return {
         "frames": frame_sets.validations(layout, frame_set),
-        "sequences": frame_sets.tuned_sequences(layout, frame_set)
+        "sequence": frame_sets.tuned_sequence(layout, frame_set)
         if frame_methods.has_history(method)
         else [],
         "meshes": frame_sets.all_meshes(layout, frame_set),
@@ -171,7 +171,7 @@ def modules(layout: Layout, stage: str, frame_set: str, methods: Iterable[str]) 
     if views:
         return imported | layout.network_modules(map(unbiased, filter(is_network, methods)))
     if stage == "tune" and any(map(frame_methods.has_history, methods)):
-        imported.add(frame.module_file(frame.SEQUENCES))
+        imported.add(frame.module_file(frame.OF_SEQUENCES))
     networks = frame_methods.network_modules(layout, methods)
     imported |= {frame.module_file("screen_network_method") for _ in networks}
     return imported | networks | frame_sets.modules(layout, frame_set)

@@ -180,8 +180,8 @@ def sequences(layout: Layout, frame_set: str) -> list[str]:
     return [part for use in SEQUENCES for part in _of_first(layout, frame_set, use)]
 
 
-def tuned_sequences(layout: Layout, frame_set: str) -> list[str]:
-    """The sequence on which constants are chosen, of the first scene."""
+def tuned_sequence(layout: Layout, frame_set: str) -> list[str]:
+    """The sequence on which constants are chosen, of the first scene, if the set has sequences."""
     return _of_first(layout, frame_set, TUNED_SEQUENCE)
 
 

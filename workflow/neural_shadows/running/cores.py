@@ -28,17 +28,17 @@ class JobCores:
     def _open(self) -> bool:
         """Open and lock the file, unless another job just then takes it for an ended one's."""
         self.file = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_TRUNC)
-        self.locks = removed = False
+        self.locks = again = False
         try:
             fcntl.flock(self.file, fcntl.LOCK_SH | fcntl.LOCK_NB)
-            self.locks, removed = True, os.fstat(self.file).st_nlink == 0
+            self.locks, again = True, os.fstat(self.file).st_nlink == 0
         except BlockingIOError:
-            removed = True
+            again = True
         except OSError:  # a file system without locks, as Lustre often is
             pass
-        if removed:
+        if again:
             os.close(self.file)
-        return not removed
+        return not again
 
     def take_idle(self, run_cores: int, most: int) -> int:
         """Take those of a run's cores that no other job has; return how many the job has now.

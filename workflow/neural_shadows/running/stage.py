@@ -12,6 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NoReturn, get_args, get_type_hints
 
+from neural_shadows import GC_THRESHOLD
 from neural_shadows.errors import InputError
 from neural_shadows.files.whole_files import is_full_disk
 from neural_shadows.running import cores, origin, progress, provenance
@@ -19,9 +20,6 @@ from neural_shadows.running import cores, origin, progress, provenance
 # Used by Snakemake only: the digest of the code behind a result, files to be built along with a
 # table or beside an input, the kind that names a script, and the module of a table's or figure's kind.
 _RULE_ONLY = {"code", "beside", "kind", "module"}
-
-# Python's own. A run's is higher while it imports, see the package's `__init__.py`.
-_GC_THRESHOLD = (700, 10, 10)
 
 INTERRUPTED = 130  # the shell's status after Ctrl-C
 
@@ -43,7 +41,7 @@ def run_stage(
         write: takes the function's result, and the outputs by name, which the function then does not.
     """
     gc.freeze()
-    gc.set_threshold(*_GC_THRESHOLD)
+    gc.set_threshold(*GC_THRESHOLD)
     # File names that are not valid text must not cause a second error.
     terminal = os.fdopen(os.dup(2), "w", buffering=1, errors="backslashreplace")
     with open(job.log[0], "w", encoding="utf-8", errors="backslashreplace", buffering=1) as log:
