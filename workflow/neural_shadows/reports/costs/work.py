@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from neural_shadows.evaluation.registry import is_network, method_of, unbiased
+from neural_shadows.frames.uses import RUN_IN
 from neural_shadows.layout import evaluations, frame_methods, frame_sets
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import HELD_OUT
@@ -258,6 +259,8 @@ def tune(layout: Layout, frame_set: str, group: str, method: str) -> Work:
     for count in counts:
         tried = tried * count if tuned.joint else tried + count
     answers = tried * pixels * _lights(layout, frame_set)
+    if frame_methods.has_history(method) and (length := layout.frames(frame_set)["sequence"]):
+        answers += sum(counts) * (RUN_IN + length) * _size(layout, frame_set)
     return Work(LIGHT_START + 5.0 * pixels) + _answers(layout, method, answers)
 
 
