@@ -4,14 +4,12 @@ SEQUENCES = ("camera", "light", "both", "object")  # what moves from each frame 
 TUNED_SEQUENCE = "validation_both"  # constants of methods with a history are chosen on it
 # Their order is part of the random streams.
 USES = ("train", "validation", "test", *SEQUENCES, TUNED_SEQUENCE)
+# Frames of the first view at rest before a sequence begins, for methods with a history. Histories grow for
+# 8 frames and more: without any E of five frames was 2 to 3 times that of later ones (FFX-like filter).
+RUN_IN = 16
 
 
 def motion_of(use: str) -> str | None:
     """What moves in a sequence; None for the other uses."""
     motion = use.removeprefix("validation_")
     return motion if motion in SEQUENCES else None
-
-
-# Frames of the first view at rest before a sequence begins, for methods with a history. Histories grow for
-# 8 frames and more: without any E of five frames was 2 to 3 times that of later ones (FFX-like filter).
-RUN_IN = 16

@@ -88,8 +88,8 @@ def scenes_interval(values: np.ndarray, scenes: np.ndarray) -> tuple[float, floa
 
     From `FEWEST_SCENES` kinds on these are the units (see `kinds_of`), of which scenes and frames are
     samples: the statement is about other scenes like these. Of fewer the frames are, each among those
-    of its scene: the statement is about these scenes. Every scene has the same weight, however many frames it has. Trainings are
-    as in `two_way_interval`.
+    of its scene: the statement is about these scenes. Every scene has the same weight, however many
+    frames it has. Trainings are as in `two_way_interval`.
 
     Args:
         values: (..., S, F) of trainings and frames; leading axes are data of their own.
