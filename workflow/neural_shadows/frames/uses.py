@@ -1,4 +1,4 @@
-"""Uses of frames: the first word of a part's name."""
+"""Uses of frames: a part's name without its number."""
 
 SEQUENCES = ("camera", "light", "both", "object")  # what moves from each frame to the next
 TUNED_SEQUENCE = "validation_both"  # constants of methods with a history are chosen on it
