@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import Any
 
 import yaml
-from numba.core.caching import UserProvidedCacheLocator
+
+from neural_shadows.running.kernel_cache import kernel_cache
 
 ROOT = Path(__file__).parents[1]
 SMOKE = Path("config/smoke.yaml")
@@ -36,6 +37,16 @@ def write_overlay(path: Path, **sections: Any) -> Path:
     return path
 
 
+def _kernel_folders(checkout: Path, copy: Path) -> dict[str, str]:
+    """How Numba names the folders of a checkout's kernels, and of the same in a copy."""
+    # When Numba is imported, it reads from the environment where kernels are.
+    from numba.core.caching import UserProvidedCacheLocator
+
+    name = UserProvidedCacheLocator.get_suitable_cache_subpath
+    modules = checkout.glob("workflow/neural_shadows/**/*.py")
+    return {name(module): name(copy / module.relative_to(checkout)) for module in modules}
+
+
 @dataclass(frozen=True)
 class Checkout:
     """A copy of the checkout, and Snakemake in it at the smoke scale."""
@@ -45,26 +56,25 @@ class Checkout:
 
     @classmethod
     def fresh(cls, folder: Path) -> "Checkout":
-        """A copy of what git tracks or would: no results, no caches."""
+        """A copy of what git tracks or would: no results; its compiled kernels are those of `ROOT`."""
         for path in source_files():
             (folder / path).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(ROOT / path, folder / path)
+        kernels = kernel_cache(ROOT)
+        for name, copied in _kernel_folders(ROOT, folder).items():
+            (kernels / name).mkdir(parents=True, exist_ok=True)
+            link = kernel_cache(folder) / copied
+            link.parent.mkdir(parents=True, exist_ok=True)
+            link.symlink_to(kernels / name)
         return cls(folder)
 
     def copy(self, folder: Path) -> "Checkout":
         """A copy with results, Snakemake's records of them, compiled kernels and times of modification."""
         shutil.copytree(self.folder, folder, symlinks=True, dirs_exist_ok=True)
-        self._hand_over_kernels(folder)
-        return replace(self, folder=folder)
-
-    def _hand_over_kernels(self, folder: Path) -> None:
-        """Rename the compiled kernels of a copy as Numba looks them up there: by their module's folder."""
-        name = UserProvidedCacheLocator.get_suitable_cache_subpath
-        names = {}
-        for module in self.folder.glob("workflow/neural_shadows/**/*.py"):
-            names[name(module)] = name(folder / module.relative_to(self.folder))
+        names = _kernel_folders(self.folder, folder)
         for kernels in folder.glob(".snakemake/numba/*/*/"):
             kernels.rename(kernels.with_name(names[kernels.name]))
+        return replace(self, folder=folder)
 
     @property
     def results(self) -> Path:

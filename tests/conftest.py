@@ -1,7 +1,15 @@
 """Which tests one process does, and when: those of a file share what they make."""
 
+import os
+
 import pytest
+from checkout import ROOT
 from xdist.scheduler import LoadScopeScheduling
+
+from neural_shadows.running import kernel_cache
+
+# The kernels of the checkout's own runs.
+os.environ[kernel_cache.VARIABLE] = str(kernel_cache.kernel_cache(ROOT))
 
 
 class ByFile(LoadScopeScheduling):

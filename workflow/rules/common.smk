@@ -41,19 +41,11 @@ from neural_shadows.reports.claims import inputs as claims
 from neural_shadows.reports.costs.plan import plan
 from neural_shadows.reports.page import targets
 from neural_shadows.reports.runs import inputs as runs
+from neural_shadows.running import kernel_cache
 from neural_shadows.running.module_graph import digest, modules_of
 from neural_shadows.training.checkpoints import remove_finished
 
-# numba caches kernels by the age of their own file: a kernel that calls one of another, edited module
-# would be stale. The cache's folder is therefore named by the content of kernels' modules and of all
-# that these import. Of the whole package, an edited plot would compile all anew: a minute.
-compiled = [
-    path
-    for path in WORKFLOW.glob("neural_shadows/**/*.py")
-    if b"import njit" in path.read_bytes()
-]
-kernels = digest({module for path in compiled for module in modules_of(path)})
-os.environ.update(NUMBA_CACHE_DIR=os.path.abspath(f".snakemake/numba/{kernels}"))
+os.environ[kernel_cache.VARIABLE] = str(kernel_cache.kernel_cache(Path()))
 
 try:
     overlays = len(

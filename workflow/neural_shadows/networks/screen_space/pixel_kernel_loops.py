@@ -33,13 +33,13 @@ def _exp(x):
     return p * power.view(np.float32)
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def _block_row():
     """A block's row; rows of a 2-D array are strided to numba, and slow."""
     return np.empty(BLOCK, np.float32)
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def _tap_span(tap, y, left, right, step, height, width):
     """Row and span of a tap for pixels (y, left … right).
 
@@ -54,7 +54,7 @@ def _tap_span(tap, y, left, right, step, height, width):
     return v, offset, first, last
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def _half_span(y, left, right, rows, columns):
     """Half-resolution rows (nearer, farther), columns [begin, end), number missing in front."""
     near = y // 2

@@ -52,7 +52,7 @@ def gather_blocks(coordinates, start, end, masks, sheet, merged, m, side, width,
     return a_first, a_end
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def _bits(row, merged):
     """Bits of the blocks along b of a row of cells."""
     if merged == 0:
@@ -77,7 +77,7 @@ def _swap(*fields: int) -> list[tuple[np.uint64, np.uint64]]:
 _TURNS = np.array([_swap(2, 4) + _swap(0, 2), _swap(0, 2) + _swap(2, 4)])
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def _turned(mask, m):
     """A brick's mask with depth as its first axis, a and b as the others."""
     if m > 0:
@@ -155,7 +155,7 @@ def project_rows(rows, any_in, all_in, to, passing, within, spans):
             start, stop = _next_run(all_in, cells, width, stop)
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def _next_run(cells, at, width, bit):
     """Next run of set bits of a row at or after a bit: [start, stop), empty at the end."""
     k, end = bit >> 6, WORD * width
@@ -178,7 +178,7 @@ def _next_run(cells, at, width, bit):
     return start, np.int64(trailing_zeros(word)) + WORD * k
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def _set_bits(words, base, first, last):
     """Set a row's bits from `first` to `last`."""
     start, end = _ALL << np.uint64(first & 63), _ALL >> np.uint64(63 - (last & 63))

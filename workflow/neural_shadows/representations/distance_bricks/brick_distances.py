@@ -99,7 +99,7 @@ def _scatter(vertices, faces, grid, table, reach, distances):
                                     distances[vertex] = np.sqrt(squared)
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def take_triangle(vertices, face, corners):
     """Fill in a triangle's corners (3, 3); return the middle and radius of a sphere around it."""
     for k in range(3):
@@ -115,7 +115,7 @@ def take_triangle(vertices, face, corners):
     return x, y, z, np.sqrt(squared)
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def take_box(corners, reach, size, first, last, low, high):
     """Fill in the first and last vertices (3,) near a triangle, and the bricks around them."""
     for axis in range(3):
@@ -127,13 +127,13 @@ def take_box(corners, reach, size, first, last, low, high):
         high[axis] = min(last[axis] // BRICK, size - 1)
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def has_brick(grid, x, y, z):
     """1 if there is a brick with values, else 0."""
     return 1 if max(x, y, z) < len(grid) and grid[x, y, z] >= 0 else 0
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True, error_model="numpy")
 def squared_distance(corners, x, y, z):
     """Squared distance of a point to a triangle (3, 3) (Ericson 2005, 5.1.5)."""
     a = corners[0]

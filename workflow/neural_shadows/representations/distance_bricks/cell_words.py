@@ -41,7 +41,7 @@ def _shares() -> np.ndarray:
 _SHARES = _shares()
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def positive_at(word, wide, x, y, z):
     """Test the sign between a word's corners: x, y, z in [0, 2^PART).
 
@@ -66,7 +66,7 @@ def positive_at(word, wide, x, y, z):
     return value > np.uint64(15 << 3 * PART - 1)
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def cell_state(some, every, first, words, x, y, z):
     """State at a position in 2^−CELL cells from any brick's corner: OUTSIDE, INSIDE or VOID.
 
@@ -89,7 +89,7 @@ def cell_state(some, every, first, words, x, y, z):
     )
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def _count(bits):
     """Count set bits of 64; compiled to one instruction."""
     one = np.uint64(1)

@@ -116,7 +116,7 @@ def _vertices_of_crossed(layout: BrickLayout, inside: np.ndarray) -> np.ndarray:
     return near
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def _expected(values, around):
     """Prediction by a plane: the mean of three parallelograms' fourth corners."""
     faces = np.int64(values[around[0]]) + values[around[1]] + values[around[2]]

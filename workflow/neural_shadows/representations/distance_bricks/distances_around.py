@@ -60,7 +60,7 @@ def _propagate(points, squared):
                             nearest_of[at] = n
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def _offer(points, n, x, y, z, squared):
     a, b, c = points[n, 0] - x, points[n, 1] - y, points[n, 2] - z
     distance = a * a + b * b + c * c

@@ -51,7 +51,7 @@ def split_disc(count: int) -> np.ndarray:
     return np.concatenate([np.zeros((1, 2)), ring]).astype(np.float32)
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def half_disc(m):
     """Share of a unit disc within an edge: on its middle's side of a straight edge at m."""
     if m >= 1:

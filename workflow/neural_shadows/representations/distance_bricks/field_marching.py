@@ -27,7 +27,7 @@ def skips(surface: np.ndarray) -> np.ndarray:
     return np.maximum(distance, 1).astype(np.int32)
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def trilinear(values, at, across, along, u, v, w):
     """Interpolate flat values from corner `at` of a cell, with strides of u and v in [0, 1]."""
     a = np.float32(values[at])
@@ -43,7 +43,7 @@ def trilinear(values, at, across, along, u, v, w):
     return a + (c - a) * u
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def _value(values, x, y, z):
     """Value of a brick at x, y, z in [0, 4]."""
     i, j, k = min(int(x), BRICK - 1), min(int(y), BRICK - 1), min(int(z), BRICK - 1)
@@ -51,7 +51,7 @@ def _value(values, x, y, z):
     return trilinear(values, at, 25, 5, x - i, y - j, z - k)
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def _has_sides(cells, values, level, x, y, z):
     """Test a sheet's cell at x, y, z in [0, 1] of a brick: touched, or all on one side."""
     most = np.int64(BRICK - 1)
@@ -65,7 +65,7 @@ def _has_sides(cells, values, level, x, y, z):
     return positive == 0 or positive == 8
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _crossing(ox, oy, oz, dx, dy, dz, first, end, step, grid, bricks, cells, level):
     """First crossing of a ray with the surface; `end` for none.
 
@@ -218,7 +218,7 @@ def mark_blocked(points, to_target, grid, bricks, steps, cells, level, blocked):
             blocked[ray] = side == OUTSIDE + INSIDE
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def _side(x, y, z, field):
     """`OUTSIDE`, `INSIDE` or `VOID` at a position in [−1, 1]³."""
     grid, bricks, cells, level = field

@@ -203,12 +203,12 @@ def _crosses(start, step, span, field):
     return False
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def _sample(start, step, k):
     return start[0] + k * step[0], start[1] + k * step[1], start[2] + k * step[2]
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def _in_order(m, at_m, at_a, at_b):
     """Coordinates x, y and z of those along m, a and b."""
     if m == 0:
@@ -218,13 +218,13 @@ def _in_order(m, at_m, at_a, at_b):
     return at_a, at_b, at_m
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def _fixed(length, unit):
     """Convert a length to 2^−20 cells, of which `unit` float32 are 1."""
     return np.int64(np.floor(length * unit + _HALF))
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def _is_within(at, shape):
     """Test for the box without its outermost bricks, which are empty."""
     return (
@@ -234,7 +234,7 @@ def _is_within(at, shape):
     )
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def _state(at, field):
     """`cell_state` at a position in the box, in 2^−20 cells."""
     nodes, shape, rows, masks, first, words = field

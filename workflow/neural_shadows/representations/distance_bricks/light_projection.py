@@ -7,7 +7,7 @@ _SLACK = 4e-3  # blocks, for a ray's rounding to 2^−20 cells a step
 CLOSE = 1e-3  # blocks; nearer to a point light its rays spread over all tiles
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True, error_model="numpy")
 def projection(start, end, light):
     """Projection of blocks between two depths on the tiles.
 
@@ -36,13 +36,13 @@ def projection(start, end, light):
     )
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def first_tile(cell, to):
     """First tile of rays through a cell."""
     return np.int64(np.floor(min(cell * to[0] + to[1], cell * to[2] + to[3]) - _SLACK))
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def last_tile(cell, to):
     """Last tile of rays through a cell."""
     return np.int64(np.floor(max((cell + 1) * to[0] + to[1], (cell + 1) * to[2] + to[3]) + _SLACK))

@@ -324,7 +324,7 @@ def _enter_slab(of_slab, passing, within, spans, seen, dark, offsets, ranges, sl
                     ranges[tile] = ranges[tile] & np.uint32(NEVER) | np.uint32(slab << DARK)
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def _add_slab(slab, base, new, old, ranges, slabs):
     """Set a slab's bit in tiles, as bits from tile `base` on, without and with earlier slabs."""
     while new:

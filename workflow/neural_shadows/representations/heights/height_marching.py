@@ -75,7 +75,7 @@ def first_crossings(origins, directions, ends, heights):
     return t_hit
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def _above(u, v, height, corners):
     """Height above the surface at u, v of a cell."""
     low, high = np.float64(corners[1]), np.float64(corners[2])

@@ -95,7 +95,7 @@ def _enclosed(words, levels):
     return enclosed
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def _root(joined, number):
     while joined[number] != number:
         joined[number] = joined[joined[number]]
@@ -103,6 +103,6 @@ def _root(joined, number):
     return number
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True)
 def _unite(joined, a, b):
     joined[_root(joined, a)] = _root(joined, b)
