@@ -44,10 +44,12 @@ def written(tmp_path):
         paths.append(tmp_path / f"{method}.csv")
         write_metrics(paths[-1], [row | {"method": method} for row in rows])
     chosen = {"constants": {"bias": 3}, "at_end": ["bias"], "mse": 0.1}
+    tuned = {"method": "pcss_post", "candidates": {"bias": [1, 3]}, "radii": [chosen] * 2}
+    tuned["history"] = chosen | {"constants": {"bias": 1}}
     records = {
         "times": samples.SOFT_TIMES | {"methods": TIMES},
         **{"lpips": {"available": False}, "frames": samples.SOFT_FRAMES},
-        "pcss_post": {"method": "pcss_post", "candidates": {"bias": [1, 3]}, "radii": [chosen] * 2},
+        "pcss_post": tuned,
     }
     times, lpips, frames, constants = (
         samples.write_record(tmp_path / f"{name}.json", record) for name, record in records.items()
@@ -91,7 +93,8 @@ def test_what_looks_at_a_map_waits_for_it(written):
 
 def test_notes_say_constants_and_where_they_end(written):
     text = written[1].read_text()
-    assert "PCSS, filtered, by radius: bias 3, 3 (bias at an end of the range tried)." in text
+    end = "(bias at an end of the range tried)"
+    assert f"PCSS, filtered, by radius: bias 3, 3 {end}; over time: bias 1 {end}." in text
     assert "machine: 1 ray, OIDN." in text and "light of 0.25 S radius" in text
     assert "[95 % over 12 frames in 2 scenes, room, tree; not valid for others]" in text
     assert "unseen scenes: tree" in text and "FLIP ↓" not in text  # of which there is none here

@@ -27,7 +27,7 @@ LOOK = Look(
 # `bias`: times a cone's, which grows with the kernel: half of a slanted receiver's texels lie before
 # it. `bleeding`: visibilities up to it become 0, and those above are rescaled to [0, 1] (Lauritzen
 # 2007).
-CONSTANTS = {"bias": (0.0, 0.03, 0.1, 0.3, 1.0), "bleeding": (0.0, 0.05, 0.1, 0.2, 0.3, 0.4)}
+CONSTANTS = {"bias": (0.0, 0.03, 0.1, 0.3, 1.0, 3.0), "bleeding": (0.0, 0.05, 0.1, 0.2, 0.3, 0.4)}
 _FLOATS = {"vsm": 2, "evsm": 4, "msm": 4}  # of a texel
 
 

@@ -24,7 +24,7 @@ LOOK = Look(
 )
 
 # Times the bias of a test against one texel.
-BIASES = (0.1, 0.3, 1.0, 3.0, 10.0)
+BIASES = (0.1, 0.3, 1.0, 3.0, 10.0, 30.0)
 _SAMPLES = 128  # as in Hu et al. 2025, 6.1
 
 

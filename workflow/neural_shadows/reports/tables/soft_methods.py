@@ -31,7 +31,7 @@ from neural_shadows.reports.data.table import Table, filled, numbers
 from neural_shadows.sections.frame_tables import MethodsTable
 from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.base import Name
-from neural_shadows.settings.records import SoftTimes, Tuned
+from neural_shadows.settings.records import SoftTimes, Tuned, TunedRadius
 
 WITH_INTERVALS = ("mse", OFF_EDGES, "l1")
 ERRORS = ("mse", OFF_EDGES)
@@ -230,13 +230,20 @@ def _describe_constants(chosen: Mapping[str, Tuned], labels: Mapping[str, str]) 
     """Describe each method's constants, and those at an end of their range."""
     sentences = []
     for method, record in chosen.items():
-        parts = [
-            f"{name} " + ", ".join(f"{choice['constants'][name]:g}" for choice in record["radii"])
-            for name in record["candidates"]
-        ]
-        ends = sorted({name for choice in record["radii"] for name in choice["at_end"]})
-        end = f" ({' and '.join(ends)} at an end of the range tried)" if ends else ""
-        sentences.append(f"{labels[method]}, by radius: {'; '.join(parts)}{end}.")
+        sentence = f"{labels[method]}, by radius: {_describe_choices(record, record['radii'])}"
+        if "history" in record:
+            sentence += f"; over time: {_describe_choices(record, [record['history']])}"
+        sentences.append(f"{sentence}.")
     if not sentences:
         return []
     return ["Constants are the best on validation frames.", *sentences]
+
+
+def _describe_choices(record: Tuned, choices: Sequence[TunedRadius]) -> str:
+    parts = [
+        f"{name} " + ", ".join(f"{choice['constants'][name]:g}" for choice in choices)
+        for name in record["candidates"]
+    ]
+    ends = sorted({name for choice in choices for name in choice["at_end"]})
+    end = f" ({' and '.join(ends)} at an end of the range tried)" if ends else ""
+    return "; ".join(parts) + end
