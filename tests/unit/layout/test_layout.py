@@ -8,6 +8,7 @@ from shipped import shipped
 from neural_shadows.config.reading import read_config
 from neural_shadows.config.resolved import resolved
 from neural_shadows.errors import InputError
+from neural_shadows.evaluation.registry import UNLEARNED
 from neural_shadows.layout import evaluations, frame_methods, frame_sets, kinds, tables, trainings
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import HELD_OUT, batches, part_range, view_range
@@ -123,6 +124,14 @@ def test_files_that_methods_are_evaluated_from(desk):
         assert files["weights"] == [] and files["meshes"] == ["results/scenes/dragon/mesh.ply"]
         found = [f"results/constants/views/dragon/{bias}.json"] if bias else []
         assert files["constants_json"] == found
+
+
+def test_null_predictors_are_measured_by_occluder_where_networks_are(desk):
+    """The claims on several objects before a light had none to be held to."""
+    for method in (*UNLEARNED, "nsm"):
+        assert frame_methods.occluders(desk, "nsm", method), method
+    assert frame_methods.occluders(desk, "sun", "no_shadow") == []  # no network is measured there
+    assert frame_methods.occluders(desk, "nsm", "pcss") == []
 
 
 def test_a_change_of_one_kind_of_frames_is_none_of_the_other(desk):

@@ -7,6 +7,7 @@ from neural_shadows.evaluation.registry import (
     FORMATS,
     FRAME_METHODS,
     LABELS,
+    UNLEARNED,
     frame_method,
     in_format,
     is_network,
@@ -35,8 +36,10 @@ def has_history(method: str) -> bool:
 
 
 def occluders(layout: Layout, frame_set: str, method: str) -> list[str]:
-    """Occluders of test frames, for networks on rendered frames only."""
-    if not is_network(method) or layout.frames(frame_set)["path"] is not None:
+    """Occluders of rendered test frames, for networks, and for null predictors where some train."""
+    trained_on = (one.get("frame_set") for one in layout.settings["experiments"].values())
+    asked = is_network(method) or method in UNLEARNED and frame_set in trained_on
+    if not asked or layout.frames(frame_set)["path"] is not None:
         return []
     return [layout.paths.frame_measure("occluders.npy", frame_set)]
 
