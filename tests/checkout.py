@@ -17,6 +17,9 @@ from neural_shadows.running.kernel_cache import kernel_cache
 ROOT = Path(__file__).parents[1]
 SMOKE = Path("config/smoke.yaml")
 
+# Of all tests; the user's own runs have others.
+KERNELS = kernel_cache(ROOT / ".pytest_cache")
+
 # Where somebody keeps a password, which nothing that a run writes may hold. LPIPS's trunk can be
 # downloaded nowhere there, so that the tables are the same everywhere.
 SECRET = "password-of-the-proxy"
@@ -38,13 +41,13 @@ def write_overlay(path: Path, **sections: Any) -> Path:
 
 
 def _kernel_folders(checkout: Path, copy: Path) -> dict[str, str]:
-    """How Numba names the folders of a checkout's kernels, and of the same in a copy."""
+    """Numba's names of a checkout's folders of kernels, and of the same in a copy."""
     # When Numba is imported, it reads from the environment where kernels are.
     from numba.core.caching import UserProvidedCacheLocator
 
     name = UserProvidedCacheLocator.get_suitable_cache_subpath
-    modules = checkout.glob("workflow/neural_shadows/**/*.py")
-    return {name(module): name(copy / module.relative_to(checkout)) for module in modules}
+    modules = (path for path in source_files() if path.suffix == ".py" and "workflow" in path.parts)
+    return {name(checkout / module): name(copy / module) for module in modules}
 
 
 @dataclass(frozen=True)
@@ -56,20 +59,22 @@ class Checkout:
 
     @classmethod
     def fresh(cls, folder: Path) -> "Checkout":
-        """A copy of what git tracks or would: no results; its compiled kernels are those of `ROOT`."""
+        """A copy of what git tracks or would.
+
+        There are no results in it, and its kernels are those of all tests.
+        """
         for path in source_files():
             (folder / path).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(ROOT / path, folder / path)
-        kernels = kernel_cache(ROOT)
+        own = kernel_cache(folder / ".snakemake")
+        own.mkdir(parents=True)
         for name, copied in _kernel_folders(ROOT, folder).items():
-            (kernels / name).mkdir(parents=True, exist_ok=True)
-            link = kernel_cache(folder) / copied
-            link.parent.mkdir(parents=True, exist_ok=True)
-            link.symlink_to(kernels / name)
+            (KERNELS / name).mkdir(parents=True, exist_ok=True)
+            (own / copied).symlink_to(KERNELS / name)
         return cls(folder)
 
     def copy(self, folder: Path) -> "Checkout":
-        """A copy with results, Snakemake's records of them, compiled kernels and times of modification."""
+        """A copy with results, Snakemake's records of them, kernels and times of modification."""
         shutil.copytree(self.folder, folder, symlinks=True, dirs_exist_ok=True)
         names = _kernel_folders(self.folder, folder)
         for kernels in folder.glob(".snakemake/numba/*/*/"):

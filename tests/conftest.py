@@ -3,13 +3,12 @@
 import os
 
 import pytest
-from checkout import ROOT
+from checkout import KERNELS
 from xdist.scheduler import LoadScopeScheduling
 
 from neural_shadows.running import kernel_cache
 
-# The kernels of the checkout's own runs.
-os.environ[kernel_cache.VARIABLE] = str(kernel_cache.kernel_cache(ROOT))
+os.environ[kernel_cache.VARIABLE] = str(KERNELS)
 
 
 class ByFile(LoadScopeScheduling):

@@ -45,7 +45,7 @@ from neural_shadows.running import kernel_cache
 from neural_shadows.running.module_graph import digest, modules_of
 from neural_shadows.training.checkpoints import remove_finished
 
-os.environ[kernel_cache.VARIABLE] = str(kernel_cache.kernel_cache(Path()))
+os.environ[kernel_cache.VARIABLE] = str(kernel_cache.kernel_cache(Path(".snakemake")))
 
 try:
     overlays = len(

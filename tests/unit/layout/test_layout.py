@@ -126,11 +126,11 @@ def test_files_that_methods_are_evaluated_from(desk):
         assert files["constants_json"] == found
 
 
-def test_null_predictors_are_measured_by_occluder_where_networks_are(desk):
+def test_null_predictors_are_measured_by_occluder_where_a_table_is(desk):
     """The claims on several objects before a light had none to be held to."""
     for method in (*UNLEARNED, "nsm"):
         assert frame_methods.occluders(desk, "nsm", method), method
-    assert frame_methods.occluders(desk, "sun", "no_shadow") == []  # no network is measured there
+    assert frame_methods.occluders(desk, "windows", "no_shadow") == []
     assert frame_methods.occluders(desk, "nsm", "pcss") == []
 
 

@@ -36,9 +36,13 @@ def has_history(method: str) -> bool:
 
 
 def occluders(layout: Layout, frame_set: str, method: str) -> list[str]:
-    """Occluders of rendered test frames, for networks, and for null predictors where some train."""
-    trained_on = (one.get("frame_set") for one in layout.settings["experiments"].values())
-    asked = is_network(method) or method in UNLEARNED and frame_set in trained_on
+    """Occluders of rendered test frames, for networks, and null predictors beside them.
+
+    The latter on frames alone of which a table is on occluders: they take a minute.
+    """
+    tables = layout.settings["tables"].values()
+    listed = {table["frame_set"] for table in tables if table["kind"] == "screen_solids"}
+    asked = is_network(method) or method in UNLEARNED and frame_set in listed
     if not asked or layout.frames(frame_set)["path"] is not None:
         return []
     return [layout.paths.frame_measure("occluders.npy", frame_set)]

@@ -52,7 +52,8 @@ def _disc(frame: "SoftFrame", radius: float, *, texels: float, bias: float) -> n
     )
 
 
-_DISC = {"texels": (0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0), "bias": BIASES}
+# The width is chosen at the bias in the middle: one texel's.
+_DISC = {"texels": (0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0), "bias": BIASES[:-1]}
 METHODS = {
     **{
         f"pcf_{size}": Method(
