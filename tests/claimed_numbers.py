@@ -4,7 +4,8 @@ A table names its CSVs in a comment before it: `<!-- numbers: FILE.csv -->`. The
 rows, without the first cell, must be those of one method in these files, whatever their columns; with
 `<!-- numbers by column: … -->` those of each column; with `of 2: ` before the files, of two methods.
 
-A table with `<!-- verdicts: FILE.csv -->` counts the claims of each text that need a run, by verdict.
+A table with `<!-- verdicts: FILE.csv … -->` counts the claims of each text that need a run, by verdict: of a
+claim in several files, by that in the last.
 """
 
 import csv
@@ -50,15 +51,18 @@ def mistakes(text: str, folder: Path) -> list[str]:
 def miscounts(text: str, folder: Path) -> list[str]:
     """Rows of tables of verdicts that count other claims than the file has, one message each."""
     found = []
-    for name, table in COUNTED.findall(text):
-        with (folder / name).open(encoding="utf-8", newline="") as file:
-            claims = [row for row in csv.DictReader(file) if row["kind"] != "printed"]
+    for names, table in COUNTED.findall(text):
+        of_names: dict[str, dict[str, str]] = {}
+        for name in names.split():
+            with (folder / name).open(encoding="utf-8", newline="") as file:
+                of_names |= {row["claim"]: row for row in csv.DictReader(file)}
+        claims = [row for row in of_names.values() if row["kind"] != "printed"]
         (_, *head), _, *body = _cells(table)
         for source, *cells in body:
             of = [row["verdict"] for row in claims if SOURCES[row["text"]] == source]
             counts = [str(sum(one in COUNTS[column] for one in of)) for column in head]
             if counts != cells:
-                found.append(f"{name}: {source}: {counts}, and not {cells}")
+                found.append(f"{names}: {source}: {counts}, and not {cells}")
     return found
 
 

@@ -47,13 +47,17 @@ def test_methods_side_by_side(tmp_path):
 
 def test_verdicts_are_counted_by_text(tmp_path):
     rows = [
-        "nsm,ratio,supported",
-        "nsm,better,undecided (scale)",
-        "nsm,printed,supported",
-        "own,ratio,supported",
+        "a,nsm,ratio,supported",
+        "b,nsm,better,undecided (scale)",
+        "c,nsm,printed,supported",
+        "d,own,ratio,supported",
     ]
-    (tmp_path / "claims.csv").write_text("\n".join(["text,kind,verdict", *rows]))
+    head = "claim,text,kind,verdict"
+    (tmp_path / "claims.csv").write_text("\n".join([head, *rows]))
+    (tmp_path / "newer.csv").write_text("\n".join([head, "b,nsm,better,supported"]))
     table = "<!-- verdicts: claims.csv -->\n| | all | supported |\n|---|---|---|\n| Datta et al. 2022 | 2 | 1 |\n"
     assert miscounts(table, tmp_path) == []
-    (fault,) = miscounts(table.replace("| 1 |", "| 2 |"), tmp_path)
+    more = table.replace("| 1 |", "| 2 |")
+    (fault,) = miscounts(more, tmp_path)
     assert "Datta et al. 2022" in fault
+    assert miscounts(more.replace("claims.csv", "claims.csv newer.csv"), tmp_path) == []
