@@ -6,6 +6,9 @@ from neural_shadows.evaluation.look import GREEN, Look
 from neural_shadows.evaluation.method import Method, rays_label
 
 LOOK = Look("rays", GREEN, "o", "●", "Sends a few rays from each pixel to the light.", joined=True)
+_SPREAD = Look(
+    "rays, spread", GREEN, "p", "⬟", "Sends each ray from another place of the pixel.", joined=True
+)
 
 
 def _from_centres(*of_frame, samples: int):
@@ -30,7 +33,10 @@ METHODS = {
     },
     **{
         f"rt_{count}_spread": Method(
-            partial(_from_spread, samples=count), label=f"{rays_label(count)}, spread", **_BY_RAYS
+            partial(_from_spread, samples=count),
+            label=f"{rays_label(count)}, spread",
+            look=_SPREAD,
+            **_BY_RAYS,
         )
         for count in (2, 4, 8)
     },
