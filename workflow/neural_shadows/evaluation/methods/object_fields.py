@@ -37,7 +37,7 @@ METHODS = {
         partial(_visibility, samples=count),
         {"cells": (0.12, 0.25, 0.5, 1.0, 2.0, 4.0)},
         f"{rays_label(count)}, fields",
-        # The offset of rays' starts does not depend on their number; tuning took 98 s of a core.
+        # The offset of rays' starts does not depend on their number; tuning by five took 98 s of a core.
         tuned_as=None if count == 1 else "field_1",
         fields=True,
         held=_bytes,

@@ -3,7 +3,8 @@
 With 64 samples of the search and 128 of the filter (Hu et al. 2025, 6.1). The constant `nearest` is
 where blockers may begin, of the way from the map's near plane to a receiver, and so how widely they are
 searched: too widely, those of other penumbrae are averaged in (squared error under the largest light of
-`windows`, of the way from the light: 44 × 10⁻⁴ at 0.25, 27 as chosen). `scale` scales the light; a point light has the four tests round each receiver.
+`windows`, of the way from the light: 44 × 10⁻⁴ at 0.25, 27 as chosen). `scale` scales the light; a point
+light has the four tests round each receiver.
 """
 
 from dataclasses import replace
