@@ -34,7 +34,7 @@ def test_everything_is_made_and_nothing_else_is_left(smoke):
         "beyond.md",
     ]
     names += ["learning_sampling.csv", "learning_sampling.md"]
-    soft = ("soft_methods", "soft_sun", "soft_panels")
+    soft = ("soft_methods", "soft_sun")
     soft += tuple(f"kpnsm_table_{n}" for n in (1, 3))
     soft += ("kpnsm_unseen", "kpnsm_radii", "kpnsm_penumbrae")
     names += [f"{name}.{ending}" for name in soft for ending in ("csv", "md")]
@@ -61,8 +61,8 @@ def test_no_secret_is_written_and_no_folder_reported(smoke):
 
 def test_values_are_finite_and_within_their_intervals(smoke):
     table = pd.read_csv(smoke.reports / "table_4_3.csv")
-    assert {"512² shadow map", "256² shadow map", "No shadow"} < set(table["method"])
-    assert len(table) == 6
+    assert {"512² shadow map", "No shadow"} < set(table["method"])
+    assert len(table) == 5
     for metric in METRICS:
         low, mean, high = (table[f"{metric}{ending}"] for ending in ("_low", "", "_high"))
         assert np.isfinite([low, mean, high]).all(), metric
@@ -89,9 +89,9 @@ def test_every_kind_of_network_is_in_the_table_past_the_thesis(smoke):
 
 
 def test_soft_methods_are_measured(smoke):
-    whole, sun, panels = (
+    whole, sun = (
         pd.read_csv(smoke.reports / f"{name}.csv").set_index(["method", "number"])
-        for name in ("soft_methods", "soft_sun", "soft_panels")
+        for name in ("soft_methods", "soft_sun")
     )
     filters = ["rt_4_svgf", "rt_1_ffx", "rt_1_sigma_ffx", "rt_1_oidn"]
     asked = ["pcss", "msm_9", "rt_1", *filter(available, filters)]
@@ -102,7 +102,6 @@ def test_soft_methods_are_measured(smoke):
     assert np.isfinite(middle[["flip", "instability_camera", "instability_object"]]).all(axis=None)
     assert set(sun["unit"]) == {"°"} and set(whole["unit"]) == {"m"}
     assert np.isfinite(sun.loc["pcss", ["mse", "ms"]]).all(axis=None)
-    assert np.isfinite(panels.loc["hard", ["mse", "ms"]]).all(axis=None)
 
 
 def test_networks_of_kernels_stand_beside_printed_numbers(smoke):

@@ -135,7 +135,7 @@ SHELLS = pytest.mark.parametrize(
 def test_equals_a_test_of_every_sample(either, size, radii, level, corner_bits, density):
     grid, values = shell(size, np.array(radii))
     bricks = field_bricks(grid, values, level, corner_bits, density=density)
-    points, differ = around(120), []
+    points, differ = around(60), []
     points[::2] *= np.float32(radii)
     for d in (*np.random.default_rng(1).normal(size=(4, 3)), *AXES):
         result = occluded(points, unit(d), bricks)
@@ -151,10 +151,10 @@ def test_a_point_light_equals_a_test_of_every_sample(either, size, radii):
     """Beside the box, above it, in its middle, and far away."""
     grid, values = shell(size, np.array(radii))
     bricks = field_bricks(grid, values, 0.0, 8)
-    points, differ = around(150), []
+    points, differ = around(80), []
     for light in ([0.9, 0.8, 0.7], [0.1, 1.4, -0.2], [0.01, 0.02, 0.03], [-50, 20, 40]):
         result = occluded_from(points, light, bricks)
-        expected = every_sample(points, np.tile(light, (150, 1)), grid, values, 0.0)
+        expected = every_sample(points, np.tile(light, (80, 1)), grid, values, 0.0)
         differ.append(result != expected)
         assert 0.05 < expected.mean()
     assert np.concatenate(differ).mean() < 0.005
@@ -192,13 +192,13 @@ def answers(mark, points, tables, bricks, bias=0.0):
 @in_c
 @pytest.mark.parametrize("corner_bits", [4, 8])
 @pytest.mark.parametrize("shape", [bumpy_sphere(5), torn_hills()])
-def test_a_million_rays_in_c_and_in_numba(shape, corner_bits):
+def test_half_a_million_rays_in_c_and_in_numba(shape, corner_bits):
     """Bit for bit: on both sides numbers are rounded at the same places."""
     field = ShadowField.fit(shape)
     bricks = field_bricks(field.grid, field.bricks, 0.0, corner_bits, field.cells)
     if corner_bits == 4:  # and rows as of a large field
         bricks = bricks._replace(rows=bricks.rows.astype(np.uint32))
-    points = around(250_000)
+    points = around(62_500)
     lights = [[directional_tables(bricks, unit(d))] for d in ([1, 0.4, 0.3], [-0.2, -0.9, 0.3])]
     lights += [point_tables(bricks, p) for p in ([0.9, 0.8, 0.7], [0.2, 1.0, 0.1])]
     for tables in lights:
@@ -245,7 +245,7 @@ def test_as_rays_that_are_marched():
     """Samples at other places, by the older loop over any rays: all but those that graze."""
     for shape, most in ((bumpy_sphere(5), 1e-4), (torn_hills(), 1e-3)):
         field, d = ShadowField.fit(shape), unit([1, 0.4, 0.3]).astype(np.float32)
-        points, marched = around(1_000_000, reach=1.0), np.zeros(1_000_000, bool)
+        points, marched = around(300_000, reach=1.0), np.zeros(300_000, bool)
         to_light = np.tile(9 * d, (len(points), 1))
         march = field.grid, field.bricks, 2 * field.resolution, field.cells, np.float32(0)
         mark_blocked(points, to_light, *march, marched)
@@ -329,7 +329,7 @@ def test_rays_on_the_borders_of_bricks(either):
     grid, values = shell(8, np.array([0.9, 0.9, 0.9]))
     bricks = field_bricks(grid, values, 0.0, 4)
     points = np.stack(np.meshgrid(*[np.arange(-8, 9) / 8] * 3), -1).reshape(-1, 3)
-    points = points.astype(np.float32)
+    points = np.random.default_rng(0).choice(points, 1000, replace=False).astype(np.float32)
     for d in np.concatenate([np.eye(3), -np.eye(3)]):
         result = occluded(points, d, bricks)
         expected = every_sample(points, far(points, d), grid, values, 0.0)

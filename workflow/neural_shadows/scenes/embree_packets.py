@@ -136,13 +136,16 @@ def _copy(geometry: int, kind: int, form: int, rows: np.ndarray) -> None:
         ctypes.memmove(buffer, rows.ctypes.data, rows.nbytes)
 
 
-def _as_rays(origins: np.ndarray, directions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Origins and directions as (n, 3) float32, for one compiled type."""
+def _as_rays(origins: np.ndarray, directions: np.ndarray) -> list[np.ndarray]:
+    """Origins and directions as (n, 3) float32, read-only: one type, compiled once."""
     shape = len(origins), 3
-    return tuple(
-        np.ascontiguousarray(np.broadcast_to(rows, shape), np.float32)
+    rays = [
+        np.ascontiguousarray(np.broadcast_to(rows, shape), np.float32).view()
         for rows in (origins, directions)
-    )
+    ]
+    for rows in rays:
+        rows.flags.writeable = False
+    return rays
 
 
 def _packet() -> np.ndarray:

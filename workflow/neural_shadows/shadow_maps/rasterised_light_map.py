@@ -49,7 +49,7 @@ def _before(points: np.ndarray, faces: np.ndarray, near: float) -> tuple[np.ndar
     # Avoids division by the depth of unused points.
     together = np.concatenate(added)
     together[:, 2] = np.maximum(together[:, 2], near)
-    return together, np.concatenate([whole, *parts])
+    return together, np.concatenate([whole, *parts], dtype=np.int32)
 
 
 def _turned(faces: np.ndarray, deep: np.ndarray, corners: int) -> np.ndarray:

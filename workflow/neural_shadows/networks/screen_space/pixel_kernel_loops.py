@@ -166,16 +166,17 @@ def _exponentiate(planes, y, left, right, step, height, width, top, total):
 
 
 @njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")
-def filter_rows(bits, factor, step, source, guide, limit, begin, end, result, first_row=0):
+def filter_rows(bits, factor, step, source, guide, limit, begin, end, result, first_row):
     """Fill rows begin … end of a level's result (H, W).
 
     Args:
         bits: (25, h, w), the bits of logits in float32 or bfloat16 as integers.
-        first_row: row of the result at the beginning of `bits`.
         factor: 1, or 2 where logits are of half the resolution and are enlarged bilinearly.
         step: pixels from tap to tap.
         source: (H, W) float32, with H ≤ factor · h and W ≤ factor · w.
         guide: likewise, and the limit to its differences within a kernel; ∞ for none.
+        first_row: row of the result at the beginning of `bits`. Not by default: a call without it
+            would be compiled apart.
     """
     height, width = source.shape
     planes, half = np.empty((TAPS, BLOCK), np.float32), np.empty(BLOCK // 2 + 3, np.float32)

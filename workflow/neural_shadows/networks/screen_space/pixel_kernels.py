@@ -121,7 +121,7 @@ def _in_bands(
     guide, limit = gate
     ends = [height * number // threads for number in range(threads + 1)]
     bands = [
-        (bits[image], factor, step, source[image], guide[image], limit, *rows, result[image])
+        (bits[image], factor, step, source[image], guide[image], limit, *rows, result[image], 0)
         for image in range(len(source))
         for rows in zip(ends, ends[1:])
     ]
