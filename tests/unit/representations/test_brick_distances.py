@@ -17,7 +17,7 @@ def distances_of(shape: trimesh.Trimesh) -> tuple[np.ndarray, np.ndarray]:
     """Positions (count, 3) of the vertices, and their distances in cells."""
     mesh, _ = prepared(shape)
     layout = lay_out(surface_cells(mesh.vertices, mesh.faces, BRICKS), True)
-    return layout.vertices * CELL - 1, signed_distances(mesh, layout, REACH)
+    return layout.vertices * CELL - 1, signed_distances(mesh, layout)
 
 
 def test_a_box(angle=0.3):

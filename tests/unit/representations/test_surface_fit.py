@@ -64,7 +64,7 @@ def ball():
     """A ball 8 cells in radius, its layout and signed distances."""
     mesh, _ = prepared(trimesh.creation.icosphere(5, radius=0.5))
     layout = lay_out(surface_cells(mesh.vertices, mesh.faces, BRICKS), True)
-    return mesh, layout, signed_distances(mesh, layout, 2.0)
+    return mesh, layout, signed_distances(mesh, layout)
 
 
 def test_the_surface_of_a_ball(ball):

@@ -11,6 +11,7 @@ from threadpoolctl import threadpool_limits
 
 from neural_shadows.files.whole_files import whole_file, write_json
 from neural_shadows.meshes.prepared_mesh import PreparedMesh, read_prepared
+from neural_shadows.meshes.uniform_points import uniform_points
 from neural_shadows.rendering.gbuffer import pixel_directions
 from neural_shadows.representations.shadow_field.shadow_field import ShadowField
 from neural_shadows.running.origin import describe_origin
@@ -101,7 +102,10 @@ def measure_sun_hours(
     fitted = time.process_time()
     tracer = Tracer(mesh.vertices, mesh.faces)
     built = time.process_time()
-    places, normals = _surface_points(mesh, points, np.random.default_rng(seed))
+    places, face = uniform_points(mesh.vertices, mesh.faces, points, np.random.default_rng(seed))
+    # In the order of faces, as models have them: Embree's packets of eight then stay together.
+    order = np.argsort(face)
+    places, normals = np.float32(places[order]), mesh.face_normals[face[order]]
     by_field = Daylight(shadow_field.occluded, places + CELLS * shadow_field.cell * normals)
     by_embree = Daylight(_by(tracer), places + np.float32(RADII) * normals)
     for method in (by_field, by_embree):  # compiles, too
@@ -159,23 +163,6 @@ def _by(tracer: Tracer) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
         return tracer.occluded(points, directions[: len(points)])
 
     return occluded
-
-
-def _surface_points(
-    mesh: PreparedMesh, count: int, rng: np.random.Generator
-) -> tuple[np.ndarray, np.ndarray]:
-    """Points (count, 3) spread evenly over a mesh's area, and their normals, float32."""
-    corners = mesh.vertices[mesh.faces]
-    edges = corners[:, 1:] - corners[:, :1]
-    area = np.cumsum(np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1), dtype=np.float64)
-    # In the order of faces, as models have them: Embree's packets of eight then stay together.
-    face = np.searchsorted(area, np.sort(rng.uniform(0, area[-1], count)), side="right")
-    face = np.minimum(face, len(area) - 1)
-    u, v = rng.uniform(0, 1, (2, count, 1)).astype(np.float32)
-    beyond = u + v > 1
-    u, v = np.where(beyond, 1 - u, u), np.where(beyond, 1 - v, v)
-    places = corners[face, 0] + u * edges[face, 0] + v * edges[face, 1]
-    return places, mesh.face_normals[face]
 
 
 def _add_all(methods: list[Daylight], normals: np.ndarray, rays: Rays) -> int:

@@ -47,7 +47,7 @@ def tuned_files(layout: Layout, frame_set: str, group: str, method: str) -> dict
     }
 
 
-def tuned_settings(layout: Layout, frame_set: str, group: str, method: str) -> dict[str, Any]:
+def tuned_settings(layout: Layout, frame_set: str, group: str) -> dict[str, Any]:
     """Settings of `tune`."""
     return _view_settings(layout, group) if frame_set == VIEWS else {}
 

@@ -4,6 +4,8 @@ import numpy as np
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 
+from neural_shadows.meshes.uniform_points import uniform_points
+
 _POINTS, _RAYS = 1000, 32
 _OFFSET = 1e-4  # of ray origins from the surface, sphere radii
 
@@ -27,7 +29,10 @@ def is_sheet(vertices: np.ndarray, faces: np.ndarray) -> bool:
     scene = EmbreeScene()
     TriangleMesh(scene, np.float32(vertices), np.int32(faces))
     rng = np.random.default_rng(0)
-    points, normals = _drawn(vertices, faces, rng)
+    points, face = uniform_points(vertices, faces, _POINTS, rng)
+    a, b, c = (vertices[faces[face, k]] for k in range(3))
+    normals = np.cross(b - a, c - a)
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
     directions = rng.normal(size=(_RAYS, _POINTS, 3))
     directions *= np.sign((directions * normals).sum(axis=2))[..., None]
     escaped = []
@@ -37,19 +42,3 @@ def is_sheet(vertices: np.ndarray, faces: np.ndarray) -> bool:
         hit = scene.run(*map(np.float32, rays), query="OCCLUDED") >= 0
         escaped.append(1 - hit.reshape(_RAYS, _POINTS).mean(axis=0))
     return bool(np.minimum(*escaped).mean() > _LEAST_ESCAPED)
-
-
-def _drawn(
-    vertices: np.ndarray, faces: np.ndarray, rng: np.random.Generator
-) -> tuple[np.ndarray, np.ndarray]:
-    """Points of a surface, evenly by area, and the faces' normals, (n, 3) each."""
-    a, b, c = (np.take(vertices, faces[:, k], axis=0) for k in range(3))
-    across = np.cross(b - a, c - a)
-    area = np.linalg.norm(across, axis=1)
-    sums = np.cumsum(area, dtype=np.float64)
-    face = np.searchsorted(sums, rng.random(_POINTS) * sums[-1], side="right")
-    face = np.minimum(face, len(sums) - 1)  # a product may round up to the sum of all
-    u, v = rng.random((2, _POINTS, 1))
-    u, v = np.where(u + v > 1, 1 - u, u), np.where(u + v > 1, 1 - v, v)
-    points = a[face] + u * (b - a)[face] + v * (c - a)[face]
-    return points, across[face] / area[face][:, None]

@@ -64,7 +64,7 @@ def count_bodies(faces, count):
     roots, bodies = np.arange(count), count
     for f in range(len(faces)):
         for k in range(2):
-            a, b = _root(roots, faces[f, k]), _root(roots, faces[f, k + 1])
+            a, b = root(roots, faces[f, k]), root(roots, faces[f, k + 1])
             if a != b:
                 roots[max(a, b)] = min(a, b)
                 bodies -= 1
@@ -72,7 +72,8 @@ def count_bodies(faces, count):
 
 
 @njit(cache=True, nogil=True)
-def _root(roots, vertex):
+def root(roots, vertex):
+    """Root of a vertex's set in a union-find forest, whose paths it halves."""
     while roots[vertex] != vertex:
         roots[vertex] = roots[roots[vertex]]
         vertex = roots[vertex]

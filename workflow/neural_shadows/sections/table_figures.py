@@ -82,7 +82,9 @@ class MethodsFigure(RowsFigure):
 class RadiiFigure(TableFigure):
     """Figure of methods on rendered frames at some radii."""
 
-    radii: list[int] | None = Field(None, min_length=1, description="indices, from 0; default: all")
+    radii: list[int] | None = Field(
+        None, min_length=1, description="numbers of radii, counted from 0"
+    )
 
     def check(self, config: Sections, key: str) -> None:
         super().check(config, key)

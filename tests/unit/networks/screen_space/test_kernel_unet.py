@@ -39,7 +39,8 @@ def tiny(name="kernels", seed=0):
     """A network whose norms have statistics and weights of their own."""
     form, ends = FORMS[name]
     features = FOUR if form == "direct" else EIGHT
-    network = KernelUnet(form, TINY, features, filters=2, seed=seed, ends=ends)
+    network = KernelUnet(form, TINY, features, filters=2, ends=ends)
+    network.initialise(seed)
     generator = torch.Generator().manual_seed(1)
     for norm in network.norms():
         for parameter in (norm.weight.data, norm.running_var):

@@ -136,7 +136,7 @@ class OccupancyFieldNetwork(ShadowNetwork):
         layout = lay_out(surface, self.surface == "solid")
         self._set_layout(layout)
         if self.start != "undecided":
-            distances = signed_distances(mesh, layout, REACH)
+            distances = signed_distances(mesh, layout)
             if self.start == "fitted":
                 distances = fitted_distances(mesh, layout, distances).clip(-REACH, REACH)
             self._start_shares = torch.from_numpy(distances) * CELL_SHARE

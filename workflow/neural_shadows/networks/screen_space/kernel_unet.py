@@ -40,7 +40,6 @@ class KernelUnet(ScreenNetwork):
             from that of the frame's own.
         features: names in FEATURES; their planes are the input, in this order, without any scaling.
         filters: 5 × 5 kernels of a pixel, of dilation 1, 2, 4 …
-        seed: of the first weights.
         ends: of the kernels, `half` (2 × 2 pixels as channels, and a bilinear enlargement) or
             `full`.
         edge: largest difference of the feature `log_d` within a kernel; None for any.
@@ -57,7 +56,6 @@ class KernelUnet(ScreenNetwork):
         widths: Sequence[int],
         features: Sequence[str],
         filters: int = 4,
-        seed: int = 0,
         ends: str = "half",
         edge: float | None = None,
     ):
@@ -90,7 +88,7 @@ class KernelUnet(ScreenNetwork):
             norm = ChunkNorm(last[0].outputs)
             self.head = nn.Sequential(before, norm, nn.ReLU(inplace=True), output)
             self.exit = doubled()
-        self.initialise(seed)
+        self.initialise(0)
 
     def initialise(self, seed: int) -> None:
         """Set the initial weights, determined by the seed."""

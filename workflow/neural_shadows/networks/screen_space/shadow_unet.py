@@ -61,7 +61,6 @@ class ShadowUnet(ScreenNetwork):
         pool: `average` or `max`. first_skip: a skip at the level of the frame's own size; the other
             levels always have one.
         extraction: hidden channels of a learned reduction to four channels in front (3.2).
-        seed: of the first weights.
 
     Channels are normalised by `centres` and `spreads`, means and standard deviations over a
     training's frames, see `normalise`. The latter differ by 60 times; and bfloat16's steps of 0.004
@@ -80,7 +79,6 @@ class ShadowUnet(ScreenNetwork):
         pool: str = "average",
         first_skip: bool = False,
         extraction: int | None = None,
-        seed: int = 0,
     ):
         super().__init__()
         self.features = tuple(features)
@@ -105,7 +103,7 @@ class ShadowUnet(ScreenNetwork):
         self.deepest = stacked([layer for layer in layers if layer.level == deepest])
         self.register_buffer("centres", torch.zeros(channels))
         self.register_buffer("spreads", torch.ones(channels))
-        self.initialise(seed)
+        self.initialise(0)
 
     def initialise(self, seed: int) -> None:
         """Set the initial weights, determined by the seed.

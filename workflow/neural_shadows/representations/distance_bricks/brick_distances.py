@@ -17,15 +17,15 @@ REACH = 2.0
 SIGN_RAYS, ENOUGH = 20, 5
 
 
-def signed_distances(mesh: PreparedMesh, layout: BrickLayout, reach: float) -> np.ndarray:
+def signed_distances(mesh: PreparedMesh, layout: BrickLayout) -> np.ndarray:
     """Distance of each brick vertex to the mesh, positive inside.
 
-    (count,) float32 in cells, within [−reach, reach].
+    (count,) float32 in cells, within [−REACH, REACH].
     """
     half = len(layout.grid) * BRICK / 2  # cells in a radius
     vertices = (mesh.vertices.astype(np.float64) + 1) * half
-    distances = np.full(layout.count, reach)
-    _scatter(vertices, mesh.faces, layout.grid, layout.table, float(reach), distances)
+    distances = np.full(layout.count, REACH)
+    _scatter(vertices, mesh.faces, layout.grid, layout.table, REACH, distances)
     points = (layout.vertices / half - 1).astype(np.float32)
     return np.where(inside(mesh, points), distances, -distances).astype(np.float32)
 

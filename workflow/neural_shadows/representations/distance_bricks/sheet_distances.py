@@ -10,6 +10,7 @@ from numba import njit
 
 from neural_shadows.meshes.prepared_mesh import PreparedMesh
 from neural_shadows.representations.distance_bricks.brick_distances import (
+    REACH,
     has_brick,
     squared_distance,
     take_box,
@@ -27,25 +28,22 @@ _HALF = 0.5 + 0.15
 _SAME = 1e-5  # relative difference of squared distances to a point of two faces
 
 
-def sheet_distances(
-    mesh: PreparedMesh, layout: BrickLayout, reach: float
-) -> tuple[np.ndarray, np.ndarray]:
+def sheet_distances(mesh: PreparedMesh, layout: BrickLayout) -> tuple[np.ndarray, np.ndarray]:
     """Distance of each brick vertex to a sheet, and the cells that it touches.
 
     Args:
         mesh: with faces of one winding where they meet.
-        reach: largest distance, in cells.
 
     Returns:
-        (count,) float32 in cells within [−reach, reach], positive behind the faces; and (bricks,)
+        (count,) float32 in cells within [−REACH, REACH], positive behind the faces; and (bricks,)
         uint64, bit 16 x + 4 y + z of each cell touched.
     """
     half = len(layout.grid) * BRICK / 2  # cells in a radius
     vertices = (mesh.vertices.astype(np.float64) + 1) * half
-    squared, heights = np.full(layout.count, reach**2), np.zeros(layout.count)
+    squared, heights = np.full(layout.count, REACH**2), np.zeros(layout.count)
     cells = np.zeros(len(layout.table), np.uint64)
     triangles = vertices, mesh.faces, mesh.face_normals.astype(np.float64)
-    _scatter(*triangles, layout.grid, layout.table, float(reach), squared, heights, cells)
+    _scatter(*triangles, layout.grid, layout.table, REACH, squared, heights, cells)
     distances = np.where(heights > 0, -1, 1) * np.sqrt(squared)
     return distances.astype(np.float32), cells
 

@@ -36,11 +36,11 @@ def fitted_bricks(
     check_memory(resolution, int(surface.sum()))
     layout = lay_out(surface, solid=not sheet)
     if sheet:
-        distances, cells = sheet_distances(mesh, layout, REACH)
+        distances, cells = sheet_distances(mesh, layout)
     else:
         # Unfitted ones cut off convex edges. Eight cones of a sun of 1° past the Stanford dragon
         # then had 2.3 times the squared error, that of 5.3 rays instead of 9.2.
-        exact = signed_distances(mesh, layout, REACH)
+        exact = signed_distances(mesh, layout)
         distances, cells = fitted_distances(mesh, layout, exact).clip(-REACH, REACH), NO_CELLS
     values = np.round(LEVELS / REACH * distances).astype(np.int8)
     return layout.grid, values[layout.table], cells

@@ -3,6 +3,7 @@
 import numpy as np
 from numba import njit
 
+from neural_shadows.meshes.sides import root
 from neural_shadows.representations.voxels.voxel_bricks import BRICK_LEVELS, MOST_LEVELS
 from neural_shadows.representations.voxels.voxel_dag import (
     EMPTY,
@@ -88,21 +89,13 @@ def _enclosed(words, levels):
                     other = 32 * at + octant(nx >> free, ny >> free, nz >> free)
                 _unite(joined, own, other)
     enclosed = np.zeros(len(words), np.uint32)
-    end = _root(joined, outside)
+    end = root(joined, outside)
     for number in range(outside):
-        if _root(joined, number) != end:
+        if root(joined, number) != end:
             enclosed[number >> 5] |= np.uint32(1) << np.uint32(number & 31)
     return enclosed
 
 
 @njit(cache=True, nogil=True)
-def _root(joined, number):
-    while joined[number] != number:
-        joined[number] = joined[joined[number]]
-        number = joined[number]
-    return number
-
-
-@njit(cache=True, nogil=True)
 def _unite(joined, a, b):
-    joined[_root(joined, a)] = _root(joined, b)
+    joined[root(joined, a)] = root(joined, b)

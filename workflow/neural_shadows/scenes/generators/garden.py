@@ -6,8 +6,8 @@ from neural_shadows.meshes.fence import make_fence
 from neural_shadows.scenes.arrangement import Arrangement, Region, Spot
 from neural_shadows.scenes.pieces.building import floor
 from neural_shadows.scenes.pieces.furniture import bench, grille, plant
-from neural_shadows.scenes.pieces.outdoors import pergola, stones
-from neural_shadows.scenes.pieces.shapes import Shape, at, leaves, placed
+from neural_shadows.scenes.pieces.outdoors import blades_in, pergola, stones
+from neural_shadows.scenes.pieces.shapes import Shape, at, placed
 
 PANEL = 2.0  # width of a panel of the fence
 PERGOLA = 2.2  # height of its slats
@@ -62,7 +62,4 @@ def _grass(rng: np.random.Generator, blades: int) -> Shape:
     """Blades in tufts over the lawn's right half."""
     tufts = rng.uniform([0.3, -2.0], [3.4, 2.4], (50, 2))
     tufts = tufts[np.linalg.norm(tufts - LAWN[[0, 2]], axis=1) > 0.85]  # clear of the spot
-    feet = tufts[rng.integers(len(tufts), size=blades)] + rng.normal(0, 0.07, (blades, 2))
-    feet = np.stack([feet[:, 0], np.full(blades, 1e-3), feet[:, 1]], axis=1)
-    bent = rng.normal(0, 0.06, (blades, 3)) * [1, 0, 1]
-    return leaves(feet, feet + bent + rng.uniform(0.1, 0.3, (blades, 1)) * [0, 1, 0], 0.012)
+    return blades_in(rng, tufts, blades)

@@ -172,7 +172,11 @@ def lantern(rng: np.random.Generator) -> Drawn:
 def grass(rng: np.random.Generator, width: float, depth: float, blades: int) -> Shape:
     """Blades in tufts over a rectangle about the origin."""
     half = np.array([width, depth]) / 2
-    tufts = rng.uniform(-half, half, (max(4, blades // 14), 2))
+    return blades_in(rng, rng.uniform(-half, half, (max(4, blades // 14), 2)), blades)
+
+
+def blades_in(rng: np.random.Generator, tufts: np.ndarray, blades: int) -> Shape:
+    """Blades of grass around the middles of tufts, (n, 2)."""
     feet = tufts[rng.integers(len(tufts), size=blades)] + rng.normal(0, 0.07, (blades, 2))
     feet = np.stack([feet[:, 0], np.full(blades, 1e-3), feet[:, 1]], axis=1)
     bent = rng.normal(0, 0.06, (blades, 3)) * [1, 0, 1]
