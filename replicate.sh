@@ -1,12 +1,11 @@
 #!/usr/bin/env bash
 # One table and two figures from a vanilla Ubuntu 24.04, without a parameter:
 #     bash replicate.sh
-# Shadows of one object by shadow maps of five sizes, the thesis's network and a distance field, both
+# Shadows of one object by shadow maps of five sizes, the thesis's network and an occupancy field, both
 # trained here, against exact rays, as in table 4.3 and figures 4.4 and 4.5 of Neural Shadow Ray Queries:
 #     reports/table_4_3.md, reports/figure_4_4.png, reports/figure_4_5.png
-# The object is a stand-in that is made on the spot. Nine minutes with the installation, which downloads
-# 3.5 GB, on two cores with AVX-512 BF16 beside other work; 17 by the README's times where they have AVX2
-# alone. What stops goes on where it was by the same command.
+# The object is a stand-in that is made on the spot. Seven minutes by the README's times with the
+# installation, which downloads 3.5 GB, on two cores with AVX-512 BF16; 13 where they have AVX2 alone. What stops goes on where it was by the same command.
 set -euo pipefail
 cd "$(dirname "$0")"
 if ! python3 -c 'import ensurepip' 2> /dev/null; then
