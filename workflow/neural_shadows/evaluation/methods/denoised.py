@@ -31,8 +31,8 @@ def _look(filter_: str, colour: str, marker: str, symbol: str, rays_are: str) ->
 # x86-64 only. Which of its networks leaves less depends on rays and light.
 _OIDN = {"tried": {"hdr": (0.0, 1.0)}, "history": False, "package": "pyoidn"}
 # Steps of √2 where most are chosen, of 4 to 8 rays: 0.7 leaves 6 to 8 % less than 0.5 and 1 there. The least
-# are of use with a history.
-_SIGMA = (0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 4.0)
+# are of use with a history, the largest with one ray under a large light.
+_SIGMA = (0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 5.6)
 DENOISERS = {
     "svgf": Denoiser(
         "SVGF-like",
