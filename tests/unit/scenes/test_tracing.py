@@ -35,6 +35,21 @@ def test_what_lies_behind_the_goal_blocks_nothing():
     assert tracer.blocked(points, ways).tolist() == [False, True, False, False]
 
 
+@needs_library
+def test_rays_of_any_type_are_compiled_once():
+    """Read-only, broadcast, of 64 bits and in columns: each cost 2 s of compiling more."""
+    _, tracer = prepared(box(1, 1, 1))
+    rays = np.ones((8, 3), np.float32)
+    fixed = rays.copy()
+    fixed.flags.writeable = False
+    for origins in (rays, fixed, rays.astype(np.float64), np.asfortranarray(rays)):
+        for directions in (rays, fixed, np.float32([0, 1, 0])):
+            tracer._rays.occluded(origins, directions)
+            tracer._rays.first_hit(origins, directions)
+    for kernel in (embree_packets._fill_occluded, embree_packets._fill_hits):
+        assert len(kernel.signatures) == 1
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="other wheels may not hold the library")
 def test_the_library_is_found():
     assert LIBRARY is not None and isinstance(prepared(box(1, 1, 1))[1]._rays, EmbreePackets)

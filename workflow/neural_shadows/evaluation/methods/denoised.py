@@ -60,7 +60,9 @@ DENOISERS = {
             "⬣",
             "blurred by distances, then smoothed within surfaces.",
         ),
-        tried={"reach": (0.0, 0.015, 0.03, 0.06, 0.12, 0.25, 0.5, 1.0), "sigma": _SIGMA},
+        # In this order the errors of one and of two rays are the least of all 64 settings, under each light of
+        # `frames`; with the reach first they were up to 18 % larger.
+        tried={"sigma": _SIGMA, "reach": (0.0, 0.015, 0.03, 0.06, 0.12, 0.25, 0.5, 1.0)},
     ),
     "oidn_fast": Denoiser(
         "OIDN fast",
@@ -93,7 +95,6 @@ METHODS = {
         partial(_visibility, samples=count, denoiser=key),
         denoiser.tried,
         f"{rays_label(count)}, {denoiser.label}",
-        joint=True,  # one after the other, the SIGMA- and FFX-like filters' errors were up to 10 % larger
         package=denoiser.package,
         look=denoiser.look,
         sequence=partial(_sequence, samples=count, denoiser=key) if denoiser.history else None,
