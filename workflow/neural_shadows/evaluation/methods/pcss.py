@@ -58,8 +58,8 @@ def _filtered(surface: "Surface", shares: np.ndarray) -> np.ndarray:
 _CONSTANTS = {
     "bias": (0.1, 0.3, 1.0, 3.0),
     "scale": (0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0),
+    "nearest": (0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9),
 }
-_CONSTANTS |= {"nearest": (0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9)}
 _PCSS = Method(_visibility, _CONSTANTS, "PCSS")
 _FINE = replace(_PCSS, label="PCSS, map of 2048²", resolution=2048)
 METHODS = {
