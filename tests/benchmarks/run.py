@@ -1,7 +1,7 @@
 """Every stage's rate beside its ceiling and its peers, as one table.
 
     python tests/benchmarks/run.py [--quick]
-        [--only rays field labels training queries viewpoint calls soft screen viewer default]
+        [--only rays field labels training queries viewpoint calls soft screen viewer gpu default]
         [--mesh dragon_vrip_res2.ply.gz] [--trunk squeeze.backbone.pth]
         [--weights results/networks/*/weights.safetensors]
 
@@ -19,6 +19,7 @@ sys.path.append(str(Path(__file__).parents[1]))  # what benchmarks share with te
 
 import bench_default
 import bench_field
+import bench_gpu
 import bench_queries
 import bench_rays
 import bench_screen
@@ -47,6 +48,7 @@ STAGES = (
     "soft",
     "screen",
     "viewer",
+    "gpu",
     "default",
 )
 TABLE = Path("reports/benchmarks.csv")
@@ -66,6 +68,7 @@ def measure(arguments: argparse.Namespace, mesh_ply: Path) -> Iterator[list[Row]
         "soft": lambda: bench_soft.rows(quick),
         "screen": lambda: bench_screen.rows(quick) + bench_screen_training.rows(quick),
         "viewer": lambda: bench_viewer.rows(quick),
+        "gpu": lambda: bench_gpu.rows(quick),
         "default": bench_default.rows,
     }
     for stage in arguments.only:
