@@ -13,6 +13,27 @@ from neural_shadows.networks.screen_space.widths import Convolution
 from neural_shadows.networks.settings.networks import ray_network, screen_network
 from neural_shadows.networks.weight_file import load_network, save_network
 
+# Small networks of three encodings.
+SMALL_FREQUENCY = {"encoding": "frequency", "frequencies": 3, "width": 64, "hidden_layers": 2}
+SMALL_FIELD = {
+    "encoding": "occupancy_field",
+    "resolution": 16,
+    "surface": "solid",
+    "stored": "int8",
+}
+SMALL_GRIDS = {
+    "encoding": "hash_grid",
+    "points": 2,
+    "grids": [4, 8],
+    "channels": 2,
+    "width": 8,
+    "hidden_layers": 1,
+    "head": "depth_confidence",
+    "stored": "float32",
+    "occupancy": 8,
+    "table_size": 64,
+}
+
 
 def make_network(settings: dict[str, Any]) -> ShadowNetwork:
     """A network on rays."""

@@ -14,6 +14,27 @@ SETTING = {
     **{"light": [0, 1, 1], "motion": np.eye(4).tolist()},
 }
 
+# Of a short training on them.
+FEATURES = ["c_e", "view", "ratio", "difference"]
+TRAINING = {
+    **{
+        "optimiser": "adam",
+        "steps": 6,
+        "crops": 2,
+        "crop": 16,
+        "learning_rate": 5e-3,
+        "schedule": "cosine",
+    },
+    **{
+        "alpha": 0.9,
+        "perceptual": {"net": "none"},
+        "perturbation": 3.0,
+        "perturbation_from": 0.0,
+        "aligned": False,
+        "flips": True,
+    },
+}
+
 
 def edge(column: float, soft: float = 0.0) -> np.ndarray:
     """Visibility (HEIGHT, WIDTH) beside an edge, dark on its left, `soft` pixels wide on each side."""

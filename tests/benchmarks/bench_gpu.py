@@ -1,15 +1,16 @@
 """On a GPU: training steps and queries of the thesis's network, frames of the papers' networks.
 
-Beside the matrix products alone in the same number format, and the same work as plain PyTorch does
-it: eagerly, in float32. A time is the median of many calls, each waited for.
+The ceiling is the matrix products alone in the same number format; of frames, products of large
+matrices by their multiply-adds. Peers are eager float32. Each timed call is waited for.
 """
 
-from collections.abc import Callable
+from collections.abc import Mapping
 
+import bench_queries
+import bench_training
 import torch
 from bench_queries import WIDTHS, thesis_network
 from bench_screen import HEIGHT, NETWORKS, WIDTH
-from bench_training import RandomRays
 from measurement import Row, Work, median_seconds, name_of
 
 from neural_shadows.frames.feature_names import channels_of
@@ -17,26 +18,25 @@ from neural_shadows.networks.screen_space.screen_forms import layers_of
 from neural_shadows.networks.screen_space.screen_networks import make_screen_network
 from neural_shadows.networks.screen_space.widths import total
 from neural_shadows.networks.settings.networks import screen_network
-from neural_shadows.training.batches import batch_indices
-from neural_shadows.training.cuda_graph import recorded
-from neural_shadows.training.training_run import TrainingRun
+from neural_shadows.training.cuda_graph import WARM_UP, recorded
 
+GPU = torch.device("cuda")
 BATCH = 65_536  # [4.1]
 FRAME_RAYS = 1 << 20
 STEPS = 20  # of a training in one timed call
 PRODUCT = 8192  # rows and columns of the matrices
-# The paper's steps [Datta et al. 2022, 3.5]: `original` and `trimmed` of datta_2022.yaml.
-STEPS_OF_NSM = {
-    "NSM, original": NETWORKS["NSM, fast form"]
-    | {"form": "original", "widths": [32, 64, 128, 256, 512]},
-    "NSM, trimmed": NETWORKS["NSM, fast form"] | {"form": "full", "widths": [16, 32, 64, 128, 256]},
+# `original` and `trimmed` of datta_2022.yaml [Datta et al. 2022, 3.5].
+FAST = NETWORKS["NSM, fast form"]
+FRAMES = {
+    "NSM, original": FAST | {"form": "original", "widths": [32, 64, 128, 256, 512]},
+    "NSM, trimmed": FAST | {"form": "full", "widths": [16, 32, 64, 128, 256]},
+    **NETWORKS,
 }
-FRAMES = STEPS_OF_NSM | NETWORKS
 DTYPES = (torch.float32, torch.bfloat16, torch.float16)
 
 
 def rows(quick: bool) -> list[Row]:
-    """Rates of all of it; none without a GPU."""
+    """All rates; none without a GPU."""
     if not torch.cuda.is_available():
         return []
     rounds = 5 if quick else 15
@@ -48,116 +48,74 @@ def rows(quick: bool) -> list[Row]:
     ]
 
 
-def _waited_for(work: Work) -> Work:
-    def waited() -> None:
-        work()
-        torch.cuda.synchronize()
-
-    return waited
-
-
-def _products(width: int, dtype: torch.dtype, rows: int, backward: bool) -> Callable[[], None]:
-    """The layers' matrix products of so many rays."""
-    layers = []
-    for weight in thesis_network(width).layers:
-        into, out = weight.shape[1], weight.shape[0]
-        x, y = (torch.randn(rows, size, device="cuda", dtype=dtype) for size in (into, out))
-        layers.append((x, y, weight.detach().to("cuda", dtype)))
-
-    def products() -> None:
-        for i, (x, y, weight) in enumerate(layers):
-            torch.mm(x, weight.t())
-            if backward:
-                torch.mm(y.t(), x)
-                if i:  # nobody needs the gradient of the encoding
-                    torch.mm(y, weight)
-
-    return products
-
-
 def _training_row(width: int, dtype: torch.dtype, rounds: int) -> Row:
-    rays = RandomRays()
-    rays.parts = type(rays.parts)(*(part.cuda() for part in rays.parts))
-
-    def stepper(precision: str) -> Callable[[], None]:
-        settings = {"optimiser": "adam", "learning_rate": 1e-4, "loss": {}, "steps": 1}
-        settings |= {"batch_size": BATCH, "schedule": "constant", "seed": 0}
-        run = TrainingRun(
-            thesis_network(width), {**settings, "device": "cuda", "precision": precision}
-        )
-
-        def step() -> None:
-            indices = batch_indices(run.step, seed=0, batch_size=BATCH, count=rays.count)
-            run.train_step(rays.gather(indices))
-
-        return step
-
-    ours, plain = recorded(stepper(name_of(dtype))), stepper("float32")
-    products = recorded(_products(width, dtype, BATCH, backward=True))
-    works = {"ours": ours, "plain": plain, "products": products}
-    for work in works.values():
-        for _ in range(5):  # records
-            work()
-    many = {
-        name: _waited_for(lambda work=work: [work() for _ in range(STEPS)])
-        for name, work in works.items()
-    }
-    rate = {name: STEPS * BATCH / each for name, each in median_seconds(many, rounds).items()}
-    return Row(
-        f"training, width {width}, {name_of(dtype)}, batches of {BATCH}",
-        torch.cuda.get_device_name(),
-        rate["ours"],
-        "samples/s",
-        ceiling=rate["products"],
-        peer="eager float32",
-        peer_rate=rate["plain"],
+    rays = bench_training.RandomRays(GPU)
+    run, plain = (
+        bench_training.new_run(width, BATCH, precision, device=GPU)
+        for precision in (name_of(dtype), "float32")
     )
+    works = {
+        "ours": recorded(bench_training.stepper(run, rays)),
+        "plain": bench_training.stepper(plain, rays),
+        "products": recorded(bench_training.products(run.network, dtype, BATCH)),
+    }
+    for work in works.values():
+        for _ in range(WARM_UP + 1):
+            work()
+    seconds = _seconds(works, rounds, STEPS)
+    stage = f"training, width {width}, {name_of(dtype)}, batches of {BATCH}"
+    return _row(stage, BATCH, "samples/s", seconds, "eager float32")
 
 
 def _query_row(width: int, dtype: torch.dtype, rounds: int) -> Row:
-    network = thesis_network(width).cuda()
-    vectors = torch.nn.functional.normalize(torch.randn(FRAME_RAYS, 3, device="cuda"))
-    d = vectors[0]
+    network = thesis_network(width).to(GPU)
+    origins = torch.nn.functional.normalize(torch.randn(FRAME_RAYS, 3, device=GPU))
+    works = {
+        "ours": lambda: network.depths(origins, origins[0], dtype),
+        "plain": lambda: network.depths(origins, origins[0], torch.float32),
+        "products": bench_queries.products(network, dtype, FRAME_RAYS),
+    }
+    stage = f"query, width {width}, {name_of(dtype)}"
     with torch.inference_mode():
-        works = {
-            "ours": lambda: network.depths(vectors, d, dtype),
-            "plain": lambda: network.depths(vectors, d, torch.float32),
-            "products": _products(width, dtype, FRAME_RAYS, backward=False),
-        }
-        seconds = median_seconds({k: _waited_for(work) for k, work in works.items()}, rounds)
-    rate = {name: FRAME_RAYS / each for name, each in seconds.items()}
-    return Row(
-        f"query, width {width}, {name_of(dtype)}",
-        torch.cuda.get_device_name(),
-        rate["ours"],
-        "rays/s",
-        ceiling=rate["products"],
-        peer="float32",
-        peer_rate=rate["plain"],
-    )
+        seconds = _seconds(works, rounds)
+    return _row(stage, FRAME_RAYS, "rays/s", seconds, "float32")
 
 
 def _frame_row(name: str, dtype: torch.dtype, rounds: int) -> Row:
     settings = screen_network(FRAMES[name])
-    macs = total(layers_of(settings), "macs") * WIDTH * HEIGHT
-    network = make_screen_network(settings).for_inference()
-    network = network.to("cuda", dtype, memory_format=torch.channels_last)
-    frame = torch.rand(1, channels_of(settings.features), HEIGHT, WIDTH).to("cuda", dtype)
-    frame = frame.contiguous(memory_format=torch.channels_last)
-    square = torch.rand(PRODUCT, PRODUCT, device="cuda").to(dtype)
+    x = torch.rand(1, channels_of(settings.features), HEIGHT, WIDTH, device=GPU)
+    x = x.contiguous(memory_format=torch.channels_last)
+    plain = make_screen_network(settings).for_inference()
+    plain = plain.to(GPU, memory_format=torch.channels_last)
+    network = plain.in_format(dtype)
+    square = torch.rand(PRODUCT, PRODUCT, device=GPU).to(dtype)
+    works = {
+        "ours": lambda: network(x),
+        "plain": lambda: plain(x),
+        "products": lambda: square @ square,
+    }
     with torch.inference_mode():
-        works = {
-            "frame": lambda: network.in_bands(frame),
-            "layers": lambda: network(frame),
-            "product": lambda: square @ square,
-        }
-        seconds = median_seconds({k: _waited_for(work) for k, work in works.items()}, rounds)
-    return Row(
-        f"{name}, {WIDTH} x {HEIGHT}, {name_of(dtype)}",
-        torch.cuda.get_device_name(),
-        1 / seconds["frame"],
-        "frames/s",
-        ceiling=PRODUCT**3 / seconds["product"] / macs,
-        peer="layer by layer",
-        peer_rate=1 / seconds["layers"],
-    )
+        seconds = _seconds(works, rounds)
+    seconds["products"] *= total(layers_of(settings), "macs") * WIDTH * HEIGHT / PRODUCT**3
+    return _row(f"{name}, {WIDTH} x {HEIGHT}, {name_of(dtype)}", 1, "frames/s", seconds, "float32")
+
+
+def _seconds(works: Mapping[str, Work], rounds: int, times: int = 1) -> dict[str, float]:
+    """Seconds of each work, done so many times in a timed call."""
+
+    def waited_for(work: Work) -> Work:
+        def waited() -> None:
+            for _ in range(times):
+                work()
+            torch.cuda.synchronize()
+
+        return waited
+
+    seconds = median_seconds({name: waited_for(work) for name, work in works.items()}, rounds)
+    return {name: each / times for name, each in seconds.items()}
+
+
+def _row(stage: str, amount: int, unit: str, seconds: Mapping[str, float], peer: str) -> Row:
+    rate = {name: amount / each for name, each in seconds.items()}
+    device = torch.cuda.get_device_name()
+    return Row(stage, device, rate["ours"], unit, rate["products"], peer, rate["plain"])

@@ -56,7 +56,7 @@ def rows(mesh_ply: Path, weights: Sequence[Path], quick: bool) -> list[Row]:
             "halves": _two_halves(network, origins, d, dtype),
             EAGER: lambda network=network: _eager(network, origins, d),
             EMBREE: lambda: exact_visibility(scene.tracer, frame),
-            "products": _products(network, dtype, len(origins)),
+            "products": products(network, dtype, len(origins)),
         }
         seconds = median_seconds(works, rounds)
         rays = dict.fromkeys(works, len(origins)) | {EMBREE: len(points)}
@@ -99,17 +99,17 @@ def _two_halves(network: FrequencyNetwork, origins: Tensor, d: Tensor, dtype: to
     return lambda: list(pool.map(lambda half: network.depths(half, d, dtype), halves))
 
 
-def _products(network: FrequencyNetwork, dtype: torch.dtype, rays: int) -> Work:
-    """The matrix products of a query, forward alone."""
-    rows = QUERY_CHUNKS["cpu"]
+def products(network: FrequencyNetwork, dtype: torch.dtype, rays: int) -> Work:
+    """The matrix products of a query, forward alone, on the network's device."""
+    rows, device = QUERY_CHUNKS[network.device.type], network.device
     layers = [
-        (torch.randn(rows, weight.shape[1]).to(dtype), weight.detach().to(dtype).t())
+        (torch.randn(rows, weight.shape[1], device=device).to(dtype), weight.detach().to(dtype).t())
         for weight in network.layers
     ]
 
-    def products() -> None:
+    def multiply() -> None:
         for _ in range(rays // rows):
             for x, weight in layers:
                 torch.mm(x, weight)
 
-    return products
+    return multiply

@@ -25,11 +25,12 @@ class RandomRays:
 
     count = 1 << 17
 
-    def __init__(self):
+    def __init__(self, device: torch.device = CPU):
         generator = torch.Generator().manual_seed(0)
         vectors = torch.randn(2, self.count, 3, generator=generator)
         t_lb = torch.rand(self.count, generator=generator)
-        self.parts = LabelledBatch(*vectors / vectors.norm(dim=2, keepdim=True), t_lb, t_lb + 0.1)
+        parts = (*vectors / vectors.norm(dim=2, keepdim=True), t_lb, t_lb + 0.1)
+        self.parts = LabelledBatch(*(part.to(device) for part in parts))
 
     def gather(self, indices: torch.Tensor) -> LabelledBatch:
         """A batch of rays and their labels."""
@@ -42,11 +43,17 @@ def rows(quick: bool) -> list[Row]:
     return steps + _optimiser_rows(21 if quick else 101)
 
 
-def new_run(width: int, batch: int, precision: str, optimiser: str = "adam") -> TrainingRun:
+def new_run(
+    width: int,
+    batch: int,
+    precision: str,
+    optimiser: str = "adam",
+    device: torch.device = CPU,
+) -> TrainingRun:
     """A training of the thesis's network."""
     settings = {"optimiser": optimiser, "learning_rate": 1e-4, "adam_rate": 1e-4, "loss": {}}
     settings |= {"steps": 1, "batch_size": batch, "schedule": "constant"}
-    settings |= {"seed": 0, "device": CPU.type, "precision": precision}
+    settings |= {"seed": 0, "device": device.type, "precision": precision}
     return TrainingRun(thesis_network(width), settings)
 
 
@@ -61,25 +68,25 @@ def stepper(run: TrainingRun, rays: RandomRays, pool=None) -> Work:
     return step
 
 
-def _products(network: FrequencyNetwork, dtype: torch.dtype, rows: int) -> Work:
+def products(network: FrequencyNetwork, dtype: torch.dtype, rows: int) -> Work:
     """The matrix products of so many samples: forward, and both of the backward pass."""
     layers = [
         (
-            torch.randn(rows, weight.shape[1]).to(dtype),
-            torch.randn(rows, weight.shape[0]).to(dtype),
+            torch.randn(rows, weight.shape[1], device=weight.device).to(dtype),
+            torch.randn(rows, weight.shape[0], device=weight.device).to(dtype),
             weight.detach().to(dtype),
         )
         for weight in network.layers
     ]
 
-    def products() -> None:
+    def multiply() -> None:
         for i, (x, y, weight) in enumerate(layers):
             torch.mm(x, weight.t())
             torch.mm(y.t(), x)
             if i:  # nobody needs the gradient of the encoding
                 torch.mm(y, weight)
 
-    return products
+    return multiply
 
 
 def _row(width: int, rounds: int) -> Row:
@@ -88,11 +95,11 @@ def _row(width: int, rounds: int) -> Row:
     whole.chunk = BATCH
     rays, pool = RandomRays(), Workers(THREADS)
     # Each thread multiplies for itself, as in our step: nothing has to be waited for.
-    products = [_products(run.network, dtype, run.chunk) for _ in range(BATCH // run.chunk)]
+    multiplied = [products(run.network, dtype, run.chunk) for _ in range(BATCH // run.chunk)]
     works = {
         "ours": with_threads(1, stepper(run, rays, pool)),  # each of the pool's threads has one
         "plain": with_threads(THREADS, stepper(whole, rays)),
-        "products": with_threads(1, lambda: list(pool.map(lambda work: work(), products))),
+        "products": with_threads(1, lambda: list(pool.map(lambda work: work(), multiplied))),
     }
     rate = {name: BATCH / seconds for name, seconds in median_seconds(works, rounds).items()}
     return Row(

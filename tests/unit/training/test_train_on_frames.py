@@ -8,7 +8,7 @@ from unittest import mock
 import numpy as np
 import pytest
 import torch
-from screen_frames import HEIGHT, SETTING, WIDTH, write_frames
+from screen_frames import FEATURES, HEIGHT, SETTING, TRAINING, WIDTH, write_frames
 
 from neural_shadows.errors import InputError
 from neural_shadows.frames.buffers import CHANNELS
@@ -28,25 +28,6 @@ from neural_shadows.training.screen_validation import (
 )
 from neural_shadows.training.train_on_frames import train_on_frames
 
-FEATURES = ["c_e", "view", "ratio", "difference"]
-TRAINING = {
-    **{
-        "optimiser": "adam",
-        "steps": 6,
-        "crops": 2,
-        "crop": 16,
-        "learning_rate": 5e-3,
-        "schedule": "cosine",
-    },
-    **{
-        "alpha": 0.9,
-        "perceptual": {"net": "none"},
-        "perturbation": 3.0,
-        "perturbation_from": 0.0,
-        "aligned": False,
-        "flips": True,
-    },
-}
 SETTINGS = {
     "network": {"form": "shuffle", "widths": [4, 8], "features": FEATURES},
     "training": TRAINING,

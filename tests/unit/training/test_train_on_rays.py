@@ -9,6 +9,7 @@ from unittest import mock
 import pytest
 import torch
 import trimesh
+from built_networks import SMALL_FIELD, SMALL_FREQUENCY, SMALL_GRIDS
 from rays import ball_batch, write_ball_rays
 
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
@@ -36,7 +37,7 @@ TRAINING = {
     "loss": {"false_shadow": 1.0},
 }
 SETTINGS = {
-    "network": {"encoding": "frequency", "frequencies": 3, "width": 64, "hidden_layers": 2},
+    "network": SMALL_FREQUENCY,
     "training": TRAINING,
     "seed": 1,
     "experiment": "ball",
@@ -130,23 +131,7 @@ def test_files_of_a_run(tmp_path):
     assert not list(tmp_path.glob("checkpoints/*"))  # a short run needs none
 
 
-KINDS = [
-    TINY["network"],
-    {"encoding": "occupancy_field", "resolution": 16, "surface": "solid", "stored": "int8"},
-    {"encoding": "occupancy_field", "resolution": 16, "surface": "sheet", "stored": "int8"},
-    {
-        "encoding": "hash_grid",
-        "points": 2,
-        "grids": [4, 8],
-        "channels": 2,
-        "width": 8,
-        "hidden_layers": 1,
-        "head": "depth_confidence",
-        "stored": "float32",
-        "occupancy": 8,
-        "table_size": 64,
-    },
-]
+KINDS = [TINY["network"], SMALL_FIELD, SMALL_FIELD | {"surface": "sheet"}, SMALL_GRIDS]
 
 
 @pytest.mark.parametrize(
