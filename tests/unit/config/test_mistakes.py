@@ -134,7 +134,6 @@ tables.soft_methods.methods | [pcs] | tables.soft_methods.methods: 'pcs' (did yo
 claims.pcss_better_than_msm.radii | [9] | radii: 9 is not below 6, the number of radii of 'windows'
 claims.pcss_better_than_msm.radii | [-1] | radii.0 = -1: Input should be greater than or equal to 0
 claims.nsm_first_level.ratios.0.per | compute | a ratio to the sum of all others has no `per`
-claims.nsm_first_level.ratios.0.null_predictor | 0.1 | `null_predictor` is a number over `to`: give `to` as a number
 networks.nsm.form | whole | networks.nsm.form = 'whole': should be one of 'direct', 'full', 'half', 'kernels', 'original', 'shuffle'
 networks.nsm.widths | [32] | networks.nsm.widths = [32]: List should have at least 2 items
 networks.layers_7.widths | [16, [32], 64] | widths.1 = [32]: List should have at least 2 items

@@ -80,18 +80,18 @@ def test_too_small_a_budget_has_what_would_decide_in_its_reason():
 @pytest.mark.parametrize(
     ("share", "expected"), [(0.03, verdicts.TOO_SMALL), (0.04, "contradicted")]
 )
-def test_nothing_is_contradicted_below_a_thirtieth_of_the_samples(share, expected):
-    # A claim that needs seeds alone: its support has the share in its reason.
+def test_nothing_is_decided_below_a_thirtieth_of_the_samples(share, expected):
+    # A claim that needs seeds alone has the share in its reason.
     claim = better(("net", "shadow_map_256"), seeds=3)
     outcome = judge(claim, case(map=0.05, share=share))
     assert outcome["verdict"] == expected
     assert f"against the claim at {100 * share:.2g} % of the thesis's samples" in outcome["reason"]
     assert ("which says nothing of more" in outcome["reason"]) == (share < 1 / 30)
     supported = judge(claim, case(share=share))
-    assert (supported["verdict"], supported["reason"].split("favour ")[1]) == (
-        "supported",
-        f"at {100 * share:.2g} % of the thesis's samples",
-    )
+    assert supported["verdict"] == (expected if share < 1 / 30 else "supported")
+    assert f"in its favour at {100 * share:.2g} % of the thesis's samples" in supported["reason"]
+    alike = judge(claim, case(map=0.1, share=share))
+    assert alike["verdict"] == (expected if share < 1 / 30 else "undecided")
 
 
 @pytest.mark.parametrize("share", [0.03, 0.04])
@@ -135,7 +135,8 @@ def test_a_network_must_beat_no_shadow_in_the_thesis_s_metrics_and_the_claim_s(
 
 
 def test_a_network_must_have_learned_at_the_budget_that_is_compared():
-    curves = {"a": points("a", [1000, 2000], 2), "b": points("b", [1000], 2)}
+    half, whole = THESIS_SAMPLES // 2, THESIS_SAMPLES
+    curves = {"a": points("a", [half, whole], 2), "b": points("b", [half], 2)}
     lpips = {"a_0": 0.35, "a_1": 0.1, "b_0": 0.2}
     methods = {
         point["experiment"]: {"lpips": lpips[point["experiment"][:3]]}
@@ -239,14 +240,14 @@ def test_the_number_of_a_claim_is_of_the_comparison_that_decides():
     assert (outcome["number_of"], outcome["number"][:6]) == ("LPIPS", "-0.05 ")
 
 
-def test_a_loss_that_drawing_no_shadow_has_too_is_vacuous():
-    """Losses of unlike rays: no shadow costs the winner's little."""
+def test_an_order_of_losses_that_no_shadow_has_too_is_vacuous():
+    """Losses of unlike rays: no shadow costs little on the winner's."""
     data = losses({"a": 0.1, "b": 0.4})
     claim = better(("a", "b"), metrics=["loss"])
-    assert judge(claim, data)["null_verdict"] == "contradicted"  # 0.5 of both
+    assert judge(claim, data)["null_verdict"] == "undecided"  # 0.5 of both
     runs = [point["experiment"] for point in data.curves["a"]]
-    easy = replace(
-        data, trainings=data.trainings | {run: record(no_shadow_loss=0.2) for run in runs}
+    easy = replace(  # between the networks' losses or not
+        data, trainings=data.trainings | {run: record(no_shadow_loss=0.45) for run in runs}
     )
     outcome = judge(claim, easy)
     assert (outcome["verdict"], outcome["null_verdict"]) == (verdicts.VACUOUS, "supported")

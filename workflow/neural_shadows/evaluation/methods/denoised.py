@@ -37,7 +37,7 @@ DENOISERS = {
     "svgf": Denoiser(
         "SVGF-like",
         _look("SVGF-like filter", PINK, "v", "▼", "smoothed within surfaces."),
-        (1, 2, 4, 16, 30),
+        (1, 2, 4, 5, 16, 30),  # NSM has 5, kernel prediction 30
         {"sigma_luminance": (0.12, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0)},
     ),
     "ffx": Denoiser(

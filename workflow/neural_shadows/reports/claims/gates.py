@@ -23,7 +23,7 @@ from neural_shadows.reports.data.phrases import TEXTS, is_own_mesh
 # Two trainings are enough for an interval of Student's t with one degree of freedom: 12.7 standard
 # errors either way.
 LEAST_SEEDS = 2
-# A smaller share of a text's samples may not be extrapolated, and decides nothing.
+# A smaller share of a text's samples may not be extrapolated, and decides nothing on its networks.
 DECISIVE = 1 / LARGEST_STEP
 WHOSE = {"thesis": "the thesis's samples"} | {
     name: f"{paper}'s pixels" for name, paper in TEXTS.items()
@@ -171,11 +171,18 @@ def too_small(
             )
         if learning and learning.unlicensed:
             reasons.append(f"no extrapolation: {learning.unlicensed}")
-    elif (least := fewest_samples(opposing)) < DECISIVE * samples_of_text(claim):
-        reasons.append(f"against the claim at {share(claim, least)}, which says nothing of more")
+    elif (least := fewest_samples(opposing or comparisons)) < DECISIVE * samples_of_text(claim):
+        where = f"at {share(claim, least)}, which says nothing of more"
+        reasons.append(f"{_side(opposing, comparisons)} {where}")
     if reasons and (moving := direction_of(comparisons)):
         reasons.append(MOVING[moving])
     return "; ".join(reasons)
+
+
+def _side(opposing: Sequence[Comparison], comparisons: Sequence[Comparison]) -> str:
+    if opposing:
+        return "against the claim"
+    return verdict_of(comparisons).replace(verdicts.SUPPORTED, "in its favour")
 
 
 def share(claim: Claim, samples: float) -> str:

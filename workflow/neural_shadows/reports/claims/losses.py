@@ -53,8 +53,8 @@ def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
 
 
 def without_networks(claim: Claim, data: Measured) -> dict[str, list[Comparison]]:
-    """The comparisons with no shadow's loss for the claimed winner's."""
-    return {NO_SHADOW: [_comparison(pair, data, NO_SHADOW) for pair in claim["rows"]]}
+    """The comparisons with no shadow's losses for the networks'."""
+    return {NO_SHADOW: [_of_no_shadow(pair, data) for pair in claim["rows"]]}
 
 
 def not_learned(claim: Claim, data: Measured) -> str:
@@ -82,8 +82,19 @@ def _failure(claim: Claim, data: Measured, row: Row, budget: Budget) -> str:
     return ""
 
 
-def _comparison(pair: Sequence[Row], data: Measured, null: str = "") -> Comparison:
-    """Compare a pair by seeds; with a null in the first one's place."""
+def _of_no_shadow(pair: Sequence[Row], data: Measured) -> Comparison:
+    """Compare the losses of no shadow on a pair's rays, at the largest budget."""
+    runs = data.budgets(pair)[-1].runs
+    first, second = (
+        np.array([data.trainings[run]["no_shadow_loss"] for run in runs[row["experiment"]]])
+        for row in pair
+    )
+    advantage = judged(*t_interval(second - first))
+    return Comparison(metric="loss", methods=NO_SHADOW, text=NO_SHADOW, **advantage)
+
+
+def _comparison(pair: Sequence[Row], data: Measured) -> Comparison:
+    """Compare a pair by seeds."""
     fields = {"metric": "loss", "methods": " against ".join(labels(pair))}
     if reason := data.unshared(pair):
         text = f"loss of {fields['methods']}"
@@ -91,10 +102,6 @@ def _comparison(pair: Sequence[Row], data: Measured, null: str = "") -> Comparis
     budgets = data.budgets(pair)
     losses = [[data.end_losses(row, budget) for budget in budgets] for row in pair]
     (a, b), (first, second) = (arm[-1] for arm in losses), labels(pair)
-    if null:
-        runs = budgets[-1].runs[pair[0]["experiment"]]
-        nulls = np.array([data.trainings[run]["no_shadow_loss"] for run in runs])
-        return Comparison(**fields, text=null, **judged(*t_interval(b - nulls)))
     return Comparison(
         **fields,
         text=f"loss of {first} {short(a.mean())} against {second} {short(b.mean())}",
