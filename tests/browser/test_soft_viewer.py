@@ -119,7 +119,11 @@ def test_buffers(page, data, frame):
 def test_classic_methods(page, data, frame, share):
     """Maps, rays and the filter, with constants of their own."""
     radius = share * data["radius"]
-    rays = image(frame, ray_traced(frame, radius, samples=2 if radius else 1))
+    count = 2 if radius else 1
+    rays, even = (
+        image(frame, ray_traced(frame, radius, samples=count, even=spread))
+        for spread in (False, True)
+    )
     expected = {
         "pcf": image(frame, pcf._box(frame, radius, size=9, bias=1.0)),
         "pcss": image(frame, pcss._visibility(frame, radius, nearest=0.5, scale=1.0, bias=1.0)),
@@ -131,7 +135,7 @@ def test_classic_methods(page, data, frame, share):
         ),
         "rays_2": rays,
         "truth": image(frame, ray_traced(frame, radius, samples=RAYS if radius else 1)),
-        "rays_2_ffx": FfxFilter(HEIGHT, WIDTH).single(rays, frame.surface),
+        "rays_2_ffx": FfxFilter(HEIGHT, WIDTH).single(even, frame.surface),
     }
     for key, values in expected.items():
         assert_alike(answers(page, key, asked(data, share)), values, key)

@@ -19,13 +19,13 @@ def normal():
     return normal
 
 
-@pytest.mark.parametrize("hdr", [False, True])
-def test_what_has_no_noise_stays_and_no_buffer_is_handed_out(normal, hdr):
+@pytest.mark.parametrize("light", [0.25, 0.5, oidn.ANY_RANGE])
+def test_what_has_no_noise_stays_and_no_buffer_is_handed_out(normal, light):
     lit, dark = (np.full((HEIGHT, WIDTH), value, np.float32) for value in (1, 0))
-    first = oidn.open_image_denoise(lit, normal, hdr=hdr)
+    first = oidn.open_image_denoise(lit, normal, light=light)
     # A network: not exact, least of all in a corner.
     assert np.mean(1 - first) < 5e-3 and first.min() > 0.9
-    assert oidn.open_image_denoise(dark, normal, hdr=hdr).max() < 0.01
+    assert oidn.open_image_denoise(dark, normal, light=light).max() < 0.01
     assert first.min() > 0.9
 
 

@@ -152,30 +152,30 @@ def test_a_history_is_measured_after_a_rest_in_the_first_view(folder):
 
 def test_constants_for_sequences_are_chosen_with_the_history(folder):
     """And are those that an evaluation takes there, by any radius."""
-    out, sequence = folder / "rt_1_svgf.json", folder / "validation_both_000.json"
-    tune_stage([folder / "validation_000.json"], [], [], out, sequence=sequence, method="rt_1_svgf")
-    record, method = json.loads(out.read_text()), frame_method("rt_1_svgf")
+    out, sequence = folder / "rt_1_ffx.json", folder / "validation_both_000.json"
+    tune_stage([folder / "validation_000.json"], [], [], out, sequence=sequence, method="rt_1_ffx")
+    record, method = json.loads(out.read_text()), frame_method("rt_1_ffx")
     frames = [*measured_frames([sequence], [])]
     errors = {
-        value: flicker(frames, method, [{"sigma_luminance": value}] * len(RADII), lambda: None)[1]
-        for value in method.constants["sigma_luminance"]
+        value: flicker(frames, method, [{"sigma": value}] * len(RADII), lambda: None)[1]
+        for value in method.constants["sigma"]
     }
     best = min(errors, key=lambda value: errors[value]["mse_sequence"])
-    assert record["history"]["constants"] == {"sigma_luminance": best}
+    assert record["history"]["constants"] == {"sigma": best}
     tried = [each["mse"] for each in record["history"]["tried"]]
     assert tried == [each["mse_sequence"] for each in errors.values()]
     assert len(set(tried)) > 3  # the constant has an effect
-    assert sequence_constants_of(out, 3) == [{"sigma_luminance": best}] * 3
+    assert sequence_constants_of(out, 3) == [{"sigma": best}] * 3
     assert [each["constants"] for each in record["radii"]] == constants_of(out)
     assert sequence_constants_of(None, 2) == [{}] * 2
-    target = folder / "rt_1_svgf.csv", folder / "rt_1_svgf.npz"
+    target = folder / "rt_1_ffx.csv", folder / "rt_1_ffx.npz"
     evaluate_frames(
         [folder / "test_000.json"],
         folder / "lpips.json",
         target,
         sequences=[sequence],
         constants=out,
-        method="rt_1_svgf",
+        method="rt_1_ffx",
     )
     measured = read_metrics([target[0]])
     (mse,) = measured[measured["metric"] == "mse_sequence"]["value"]

@@ -13,28 +13,30 @@ from neural_shadows.errors import InputError
 # The library's "balanced" is the same network as "high" for colours in [0, 1] (2.5.1 has no larger one
 # for them).
 QUALITIES = ("high", "fast")
-# Value of full light for the network of colours in [0, 1]: it takes 1 for any brightness clipped at 1, and so
-# fills penumbrae with light. At 1 ray a pixel of a room, a mean squared error of 0.031 became 0.006.
-# That of any range finds the exposure by itself.
-BRIGHTNESS = {False: np.float32(0.5), True: np.float32(1)}
+ANY_RANGE = 0.0  # in the place of full light's value: the network for colours of any range
 
 
 def open_image_denoise(
-    visibility: np.ndarray, normal: np.ndarray, *, quality: str = "high", hdr: bool = True
+    visibility: np.ndarray, normal: np.ndarray, *, quality: str = "high", light: float = ANY_RANGE
 ) -> np.ndarray:
     """Denoise a picture, (H, W) float32 in [0, 1], on one thread.
 
     Args:
         visibility: (H, W) float32 in [0, 1].
         normal: (H, W, 3) float32, unit, noise-free; 0 where there is no surface.
-        quality: one of QUALITIES. hdr: by the network for colours of any range. Of one ray it
-            left 0.3 to 0.8 times the error of the other in five of six frames, of four about the same.
+        quality: one of QUALITIES.
+        light: the value of full light for the network of colours in [0, 1]. It takes 1 for any brightness
+            clipped at 1, and so fills penumbrae with light: at one ray a pixel of a room, a mean squared
+            error of 0.031 became 0.006 with 0.5. `ANY_RANGE` is the network that finds the exposure by
+            itself; of one ray it left 0.3 to 0.8 times the error of 0.5 in five of six frames.
 
     Raises:
         InputError: the package is not installed.
         RuntimeError: an error of the library.
     """
-    return _network(*visibility.shape, quality, hdr)(visibility, normal)
+    return _network(*visibility.shape, quality, light == ANY_RANGE)(
+        visibility, normal, light or 1.0
+    )
 
 
 def _package():
@@ -71,7 +73,6 @@ class _Network:
 
     def __init__(self, height: int, width: int, quality: str, hdr: bool):
         oidn = _package()
-        self.brightness = BRIGHTNESS[hdr]
         self.device = _device()
         names = (
             oidn.OIDN_IMAGE_COLOR,
@@ -92,13 +93,13 @@ class _Network:
         self.filter.commit()
         _check(self.device)
 
-    def __call__(self, visibility: np.ndarray, normal: np.ndarray) -> np.ndarray:
-        np.multiply(visibility[..., None], self.brightness, out=self.colour)
+    def __call__(self, visibility: np.ndarray, normal: np.ndarray, light: float) -> np.ndarray:
+        np.multiply(visibility[..., None], np.float32(light), out=self.colour)
         self.normal[:] = normal
         self.albedo[:] = normal.any(-1)[..., None]
         self.filter.execute()
         _check(self.device)
-        return np.clip(self.output.mean(-1) / self.brightness, 0, 1)
+        return np.clip(self.output.mean(-1) / np.float32(light), 0, 1)
 
 
 _network = cache(_Network)

@@ -15,7 +15,7 @@ class SigmaFfxFilter:
     """
 
     def __init__(self, height: int, width: int, reach: float = REACH, sigma: float = SIGMA):
-        self._wide = SigmaFilter(height, width, reach)
+        self._wide = SigmaFilter(height, width, reach, alone=False)
         self._fine = FfxFilter(height, width, sigma)
 
     def single(self, visibility: np.ndarray, penumbra: np.ndarray, surface: Surface) -> np.ndarray:
@@ -31,7 +31,7 @@ class TemporalSigmaFfx:
     """
 
     def __init__(self, height: int, width: int, reach: float = REACH, sigma: float = SIGMA):
-        self._wide = SigmaFilter(height, width, reach)
+        self._wide = SigmaFilter(height, width, reach, alone=False)
         self._fine = TemporalFfx(height, width, sigma)
 
     def next_frame(

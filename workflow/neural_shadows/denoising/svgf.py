@@ -16,18 +16,25 @@ from neural_shadows.denoising.wavelet import (
 from neural_shadows.rendering.surface import Surface
 
 SIGMA_LUMINANCE = 4.0  # σ_l, in standard deviations (4.4)
-PASSES = 5  # of the 5 × 5 kernel, its taps 1, 2, 4, 8, 16 pixels apart (4.4)
+PASSES = 5  # of the 5 × 5 kernel, its taps 1, 2, 4, 8, 16 pixels apart (4.3)
 
 
 class SvgfFilter:
     """The filter for pictures (height, width); keeps its buffers, so one thread may use it.
 
     Args:
-        sigma_luminance: see SIGMA_LUMINANCE.
+        sigma_luminance: see SIGMA_LUMINANCE. passes: see PASSES.
     """
 
-    def __init__(self, height: int, width: int, sigma_luminance: float = SIGMA_LUMINANCE):
+    def __init__(
+        self,
+        height: int,
+        width: int,
+        sigma_luminance: float = SIGMA_LUMINANCE,
+        passes: float = PASSES,
+    ):
         self.sigma_luminance = np.float32(sigma_luminance)
+        self._passes = int(passes)
         self._guides = np.zeros((6, height, width), np.float32)
         self._images = np.empty((6, height, width), np.float32)
         self._row = np.empty(width, np.float32)
@@ -61,7 +68,8 @@ class SvgfFilter:
         """
         light, spread, sharpness, total, next_light, next_spread = self._images
         light[:], spread[:] = visibility, variance
-        for step in range(PASSES):
+        first = visibility
+        for step in range(self._passes):
             fill_sharpness(spread, self.sigma_luminance, sharpness)
             fill_next(
                 self._guides,

@@ -12,7 +12,6 @@ if TYPE_CHECKING:  # the graph needs metadata alone
     from neural_shadows.frames.frame_set import FrameSetPart
     from neural_shadows.frames.soft_frame import SoftFrame
     from neural_shadows.rendering.gbuffer import GBuffer
-    from neural_shadows.rendering.surface import Surface
     from neural_shadows.scenes.scene import Scene
 
 Constants = Mapping[str, float]
@@ -69,7 +68,7 @@ class Method:
         channel: the frame's buffer with its visibility, if stored.
         constant: the visibility of all surfaces facing the light.
         last: a filter of a surface and visibilities (n,) in screen space, after all else, so that the
-            border of surfaces that face away is filtered, too.
+            border of surfaces that face away is filtered, too. of_last: its constants among all.
         resolution: texels of a side of the light's map, if not the frame set's.
     """
 
@@ -96,7 +95,8 @@ class Method:
     check_own: "Callable[[FrameSetPart], None] | None" = None
     channel: str | None = None
     constant: float | None = None
-    last: "Callable[[Surface, np.ndarray], np.ndarray] | None" = None
+    last: "Callable[..., np.ndarray] | None" = None
+    of_last: tuple[str, ...] = ()
     resolution: int | None = None
 
     @property
@@ -136,10 +136,13 @@ def visibility(
     """A method's visibility at a frame's points, (n,) float32."""
     if method.resolution is not None:
         frame = frame.with_map_of(method.resolution)
-    shares = method.answer(frame, radius, **constants)
+    own = {name: value for name, value in constants.items() if name not in method.of_last}
+    shares = method.answer(frame, radius, **own)
     if not method.by_rays and method.of_buffers is None:
         shares = np.where(frame.cosines > 0, shares, np.float32(0))
-    return shares if method.last is None else method.last(frame.surface, shares)
+    if method.last is None:
+        return shares
+    return method.last(frame.surface, shares, **{name: constants[name] for name in method.of_last})
 
 
 def whatever_bias(visibility: np.ndarray) -> OfBias:

@@ -44,8 +44,8 @@ def ray_traced(
         starts: of the rays, (n, 3) float32; without them the frame's.
         blocked: of points (m, 3) and vectors (m, 3) from them to the light, the mask of blocked rays,
             (m,) bool; without it by the scene's triangles.
-        even: neighbours' rays are spread evenly over the light, as filters are fed; else pixels' errors
-            are independent.
+        even: neighbours' rays are spread evenly over the light, as filters and networks are fed; else
+            pixels' errors are independent.
     """
     starts = frame.starts if starts is None else starts
     blocked, normals = blocked or frame.scene.tracer.blocked, frame.surface.n_g
@@ -98,7 +98,7 @@ def traced_images(
     if radius == 0:
         visibility = surface.image(ray_traced(frame, radius, samples=1), 1.0)
         return visibility, np.full_like(visibility, -1)
-    visibility, penumbra = ray_traced_penumbrae(frame, radius, samples=samples)
+    visibility, penumbra = ray_traced_penumbrae(frame, radius, samples=samples, even=True)
     penumbra = np.where(penumbra < 0, -1, penumbra / np.float32(frame.scene.size))
     return surface.image(visibility, 1.0), surface.image(penumbra.astype(np.float32), -1.0)
 

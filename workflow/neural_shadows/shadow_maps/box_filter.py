@@ -49,8 +49,18 @@ def _ahead(view: FaceView, light_map: LightMap) -> np.ndarray:
         ((begin + np.arange(count) + 0.5) / light_map.resolution * 2 - 1) * light_map.half
         for begin, count in zip(view.corner, view.depths.shape)
     )
-    aslant = np.sqrt(1 + np.square(rows)[:, None] + np.square(columns))
-    return view.depths / aslant.astype(np.float32)
+    ahead = np.empty(view.depths.shape, np.float32)
+    _fill_ahead(view.depths, rows.astype(np.float32), columns.astype(np.float32), ahead)
+    return ahead
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _fill_ahead(depths, rows, columns, ahead):
+    one = np.float32(1)
+    for row in range(len(rows)):
+        for column in range(len(columns)):
+            aslant = np.sqrt(one + rows[row] * rows[row] + columns[column] * columns[column])
+            ahead[row, column] = depths[row, column] / aslant
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

@@ -20,7 +20,7 @@ class FaceView:
     corner: tuple[int, int]  # row and column in the face of the first texel; below 0 in the margin
     receivers: np.ndarray  # (m,) int64, indices among all n
     places: np.ndarray  # (m, 2) float64, row and column; the centre of texel i is at i
-    depths: np.ndarray  # (H, W) float32
+    depths: np.ndarray  # (H, W) float32, may be a view of the map
 
 
 def face_views(
@@ -46,17 +46,27 @@ def face_views(
             along -= begin
             parts.append(slice(begin, end))
             corner.append(begin - margin)
-        whole = _with_margin(light_map, depths, face, margin)
-        yield FaceView(face, tuple(corner), receivers, within, np.ascontiguousarray(whole[*parts]))
+        part = _with_margin(light_map, depths, face, margin, *parts)
+        yield FaceView(face, tuple(corner), receivers, within, part)
 
 
-def _with_margin(light_map: LightMap, depths: np.ndarray, face: int, margin: int) -> np.ndarray:
+def _with_margin(
+    light_map: LightMap, depths: np.ndarray, face: int, margin: int, rows: slice, columns: slice
+) -> np.ndarray:
+    """A part of a face with a margin: of the map itself if it is inside."""
     size = light_map.resolution
     inner = depths.reshape(-1, size, size)[face]
+    spans = [(part.start - margin, part.stop - margin) for part in (rows, columns)]
+    inside = [slice(max(begin, 0), min(end, size)) for begin, end in spans]
+    beyond = [(max(-begin, 0), max(end - size, 0)) for begin, end in spans]
+    if not np.any(beyond):
+        return inner[*inside]
     if len(light_map.faces) == 1:
-        return np.pad(inner, margin, "edge")
-    wide = light_map.widened(face, margin)
-    beyond = np.pad(np.zeros((size, size), bool), margin, constant_values=True)
-    whole = np.pad(inner, margin)
-    whole[beyond] = depths[light_map.texels_of(wide.directions_of(np.flatnonzero(beyond)))]
-    return whole
+        return np.pad(inner[*inside], beyond, "edge")
+    part = np.pad(inner[*inside], beyond)
+    outside = np.pad(np.zeros_like(inner[*inside], bool), beyond, constant_values=True)
+    row, column = np.nonzero(outside)
+    texels = (row + rows.start) * (size + 2 * margin) + column + columns.start
+    directions = light_map.widened(face, margin).directions_of(texels)
+    part[outside] = depths[light_map.texels_of(directions)]
+    return part

@@ -103,10 +103,13 @@ def soft_disc_visibility(
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _fill_even(from_light, normals, bias, angle, disc, keys, looked_up_in, visibility):
-    """Unblocked share of a disc's directions."""
+    """Unblocked share of a disc's directions; 0 of receivers that face away."""
     depths, projections, faces, half, resolution = looked_up_in
     for i in range(len(from_light)):
         receiver = _receiver(from_light, normals, bias, i)
+        if _faces_away(receiver):
+            visibility[i] = 0
+            continue
         u, v = across(*receiver[0], keys[i])
         hidden, _ = blockers(
             disc, receiver, u, v, angle, depths, projections, faces, half, resolution
@@ -118,11 +121,14 @@ def _fill_even(from_light, normals, bias, angle, disc, keys, looked_up_in, visib
 def _fill_soft(
     from_light, normals, bias, radius, nearest, near, discs, keys, looked_up_in, visibility
 ):
-    """Unblocked share of discs as wide as the blockers' penumbra."""
+    """Unblocked share of discs as wide as the blockers' penumbra; 0 of receivers that face away."""
     depths, projections, faces, half, resolution = looked_up_in
     searched, disc = discs
     for i in range(len(from_light)):
         receiver = _receiver(from_light, normals, bias, i)
+        if _faces_away(receiver):
+            visibility[i] = 0
+            continue
         distance = receiver[1]
         u, v = across(*receiver[0], keys[i])
         first = near + nearest * max(distance - near, 0)
@@ -140,6 +146,12 @@ def _fill_soft(
             disc, receiver, u, v, angle, depths, projections, faces, half, resolution
         )
         visibility[i] = 1 - hidden / disc.shape[1]
+
+
+@njit(cache=True, nogil=True)
+def _faces_away(receiver):
+    direction, _, _, normal = receiver
+    return direction[0] * normal[0] + direction[1] * normal[1] + direction[2] * normal[2] >= 0
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

@@ -1,6 +1,7 @@
 """Rasterisation of a whole map of a light at a place."""
 
 import numpy as np
+from numba import njit
 
 from neural_shadows.shadow_maps.light_map import LightMap
 from neural_shadows.shadow_maps.z_buffer import drawn
@@ -21,16 +22,24 @@ def rasterised_depths(light_map: LightMap, vertices: np.ndarray, faces: np.ndarr
     offset = vertices.astype(np.float64) - light_map.centre
     depths = np.empty((len(light_map.faces), size, size), np.float32)
     across = half * (2 * (np.arange(size) + 0.5) / size - 1)
-    length = np.sqrt(1 + across[None, :] ** 2 + across[:, None] ** 2)  # of a ray that is 1 deep
     for image, axes in zip(depths, light_map.faces):
         points, clipped = _before(offset @ axes.T, faces, _NEAR * np.abs(offset).max(initial=1.0))
         x, y, depth = points.T
         scale = size / (2 * half)
         x, y = (axis / depth * scale + size / 2 - 0.5 for axis in (x, y))
         # 1 / depth is linear in the picture.
-        nearest = drawn(x, y, 1 / depth, clipped, size)
-        image[:] = np.where(nearest > 0, length / np.maximum(nearest, 1e-30), np.inf)
+        _fill_distances(drawn(x, y, 1 / depth, clipped, size), across, image)
     return depths.ravel()
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _fill_distances(nearest, across, image):
+    """Distances of texels (size, size) by the largest inverse depth; ∞ where it is 0."""
+    for row in range(len(across)):
+        for column in range(len(across)):
+            inverse = nearest[row, column]
+            length = np.sqrt(1 + across[row] ** 2 + across[column] ** 2)  # of a ray that is 1 deep
+            image[row, column] = length / inverse if inverse > 0 else np.inf
 
 
 def _before(points: np.ndarray, faces: np.ndarray, near: float) -> tuple[np.ndarray, np.ndarray]:

@@ -56,7 +56,7 @@ function filteredMethod(count) {
   return {
     key: `rays_${count}_ffx`, name: `${count === 1 ? "1 ray" : `${count} rays`}, filtered`,
     *answer(renderer, state) {
-      const rays = yield* renderer.rays(`rays_${count}`, state, count), { size, view } = state;
+      const rays = yield* renderer.rays(`even_rays_${count}`, state, count, { even: true }), { size, view } = state;
       const [row, means, even, odd] = ["row", "means", "even", "odd"].map(
         (name) => renderer.target(`ffx_${count}_${name}`, [BITS], ...size));
       renderer.fill(["means_frag"], row, { picture: rays, way: [1, 0] });
@@ -115,7 +115,7 @@ function networkMethod(data) {
         planes = makeLayerFramebuffer(renderer.gl, network.planes, 0, Math.ceil(data.planes / 4));
         yield;
       }
-      const traced = data.rays ? yield* renderer.rays("base_rays", state, data.rays, { penumbrae: true }) : null;
+      const traced = data.rays ? yield* renderer.rays("base_rays", state, data.rays, { penumbrae: true, even: true }) : null;
       const made = usesMap ? renderer.buffers(state) : {};
       yield;
       const [, , forward] = cameraAxes(view), { points, normals } = renderer.surfaces(state);

@@ -97,7 +97,7 @@ def test_rays_with_distances_see_what_others_do(frame):
 def test_images_for_networks(frame):
     """Those of the filters, penumbrae in shares of the scene's size; a point has none."""
     images = traced_images(frame, RADIUS, samples=2)
-    visible, penumbra = ray_traced_penumbrae(frame, RADIUS, samples=2)
+    visible, penumbra = ray_traced_penumbrae(frame, RADIUS, samples=2, even=True)
     size = frame.scene.size
     for image, values in zip(images, (visible, np.where(penumbra < 0, -1, penumbra / size))):
         assert np.allclose(image.ravel()[frame.surface.pixel], values)

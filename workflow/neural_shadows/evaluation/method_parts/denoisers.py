@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from neural_shadows.denoising.ffx import FfxFilter, TemporalFfx
-from neural_shadows.denoising.oidn import open_image_denoise
+from neural_shadows.denoising.oidn import ANY_RANGE, open_image_denoise
 from neural_shadows.denoising.sigma import SigmaFilter, TemporalSigma
 from neural_shadows.denoising.sigma_ffx import SigmaFfxFilter, TemporalSigmaFfx
 from neural_shadows.denoising.svgf import SvgfFilter
@@ -102,9 +102,11 @@ def _single(kind: type) -> Callable:
     return single
 
 
-def _oidn(picture: np.ndarray, surface: Surface, *, quality: str, hdr: float = 1.0) -> np.ndarray:
+def _oidn(
+    picture: np.ndarray, surface: Surface, *, quality: str, light: float = ANY_RANGE
+) -> np.ndarray:
     normal = surface.image(surface.n)
-    return open_image_denoise(picture, normal, quality=quality, hdr=bool(hdr))
+    return open_image_denoise(picture, normal, quality=quality, light=light)
 
 
 BY_KEY = {

@@ -47,10 +47,10 @@ def _visibility(
     )
 
 
-def _filtered(surface: "Surface", shares: np.ndarray) -> np.ndarray:
+def _filtered(surface: "Surface", shares: np.ndarray, *, width: float) -> np.ndarray:
     from neural_shadows.evaluation.method_parts.depth_aware_filter import depth_aware
 
-    return depth_aware(surface, shares)
+    return depth_aware(surface, shares, width)
 
 
 # One after another; in this order the errors under the sun's and the panel's lights are those of all 288
@@ -60,11 +60,22 @@ _CONSTANTS = {
     "scale": (0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0),
     "nearest": (0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9),
 }
+# The filter's standard deviation in pixels; 0.2 is no filter. With 1.5 throughout, windows of a tree had
+# 3.8 times the error that PCSS has alone.
+_WIDTHS = {"width": (0.2, 0.35, 0.5, 0.7, 1.0, 1.5, 2.2)}
 _PCSS = Method(_visibility, _CONSTANTS, "PCSS")
 _FINE = replace(_PCSS, label="PCSS, map of 2048²", resolution=2048)
+
+
+def _with_filter(method: Method) -> Method:
+    label = f"{method.label}, depth-aware filter"
+    constants = method.constants | _WIDTHS
+    return replace(method, label=label, constants=constants, last=_filtered, of_last=(*_WIDTHS,))
+
+
 METHODS = {
     "pcss": _PCSS,
-    "pcss_post": replace(_PCSS, label=f"{_PCSS.label}, depth-aware filter", last=_filtered),
+    "pcss_post": _with_filter(_PCSS),
     "pcss_2048": _FINE,
-    "pcss_2048_post": replace(_FINE, label=f"{_FINE.label}, depth-aware filter", last=_filtered),
+    "pcss_2048_post": _with_filter(_FINE),
 }

@@ -6,6 +6,7 @@ uniform float sceneSize;
 uniform float radius;
 uniform int first, count; // rays before, and of this pass
 uniform bool penumbrae;   // asks for the first hits, not for any
+uniform bool even;        // rays of neighbours are spread evenly (rendering/light_samples.py)
 layout(location = 0) out uvec4 answer;
 
 // Fractions of the plane's golden ratio, in 32 bits (Roberts 2018).
@@ -21,8 +22,9 @@ void main() {
   vec3 start = r.p + 1e-4 * sceneSize * r.face, towards = centre - start;
   mat2x3 sides = sidesOf(normalize(towards));
   uint key = (uint(at.y * textureSize(points, 0).x + at.x) + SALT) * 16u;
-  float turn = 6.283185307 * fraction(hashed(key));
-  uint shift = hashed(key + 1u);
+  uint row = uint(at.y), column = uint(at.x);
+  float turn = 6.283185307 * fraction(even ? SHARES * column + TURNS * row : hashed(key));
+  uint shift = even ? TURNS * column - SHARES * row : hashed(key + 1u);
   for (int k = first; k < first + count; k++) {
     float share = fraction(uint(k) * SHARES + SHARES / 2u + shift);
     float angle = turn + 6.283185307 * fraction(uint(k) * TURNS + TURNS / 2u);
