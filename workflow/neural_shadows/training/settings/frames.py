@@ -18,7 +18,7 @@ class Squeeze(Model):
 
 
 class Vgg19(Model):
-    """VGG-19: features of relu2_2, as in the paper."""
+    """VGG-19, as in Datta et al. 2022: features of relu2_2, a layer that they do not name."""
 
     net: Literal["vgg19"] = Field(description="`vgg19`, as in the paper")
     trunk: Text = Field(description="local weights file of torchvision's vgg19")
