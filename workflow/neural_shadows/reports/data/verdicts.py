@@ -20,8 +20,8 @@ MEANINGS = {
     "network's base) passes the same test in the networks' place; where others are to beat a network, "
     "only below a thirtieth of its text's samples.",
     TOO_SMALL: "too few training samples, seeds, views, frames or scenes for what is claimed, and no "
-    "learning curves license an extrapolation to the samples of its text; or against the claim below a "
-    "thirtieth of these, which says nothing of more.",
+    "learning curves license an extrapolation to the samples of its text; or networks of less than a "
+    "thirtieth of these, which say nothing of more.",
     UNDECIDED: "the intervals do not separate the claim from its contrary.",
     SUPPORTED: "the 95 % interval lies on the claim's side in each of its comparisons; of numbers "
     "without one the number itself, of printed ones each difference beyond the margin.",
