@@ -30,8 +30,8 @@ def _look(filter_: str, colour: str, marker: str, symbol: str, rays_are: str) ->
 
 
 # x86-64 only. Which of its networks leaves less, and at which value of full light, depends on rays and
-# light; 0 is the network of any range.
-_OIDN = {"tried": {"light": (0.0, 0.25, 0.5)}, "history": False, "package": "pyoidn"}
+# light; 0 is the network of any range. Under suns 0.85 and 1 left half of what 0.5 does.
+_OIDN = {"tried": {"light": (0.0, 0.25, 0.5, 0.7, 0.85, 1.0)}, "history": False, "package": "pyoidn"}
 # Steps of √2 where most are chosen, of 4 to 8 rays: 0.7 leaves 6 to 8 % less than 0.5 and 1 there. The least
 # are of use with a history, the largest with one ray under a large light.
 _SIGMA = (0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 5.6)
@@ -42,7 +42,7 @@ DENOISERS = {
         (1, 2, 4, 5, 16, 30),  # NSM has 5, kernel prediction 30
         # In print σ is 4 and passes are five [4.3, 4.4]; of visibility fewer left 10 to 44 % less. One after
         # the other, the two left up to 1.8 times what they leave together.
-        {"sigma_luminance": (0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0), "passes": (0, 1, 2, 3, 5)},
+        {"sigma_luminance": (1.0, 2.0, 4.0, 8.0, 16.0, 32.0), "passes": (1, 2, 3, 5)},
         joint=True,
     ),
     "ffx": Denoiser(
