@@ -29,6 +29,13 @@ def test_what_has_no_noise_stays_and_no_buffer_is_handed_out(normal, light):
     assert first.min() > 0.9
 
 
+def test_the_value_of_full_light_matters(normal):
+    rays = (np.random.default_rng(1).random((HEIGHT, WIDTH)) < 0.6).astype(np.float32)
+    a, b, c = (oidn.open_image_denoise(rays, normal, light=light) for light in (0.25, 0.85, 0.0))
+    for one, other in ((a, b), (a, c), (b, c)):
+        assert np.abs(one - other).mean() > 1e-3
+
+
 def test_without_the_package(monkeypatch):
     monkeypatch.setitem(sys.modules, "pyoidn", None)
     normal = np.zeros((3, 5, 3), np.float32)

@@ -56,3 +56,16 @@ def test_the_passes_are_the_papers():
     found = svgf.smooth(light, variance)
     assert np.abs(first - light).mean() > 0.05 and np.abs(last - first).mean() > 0.01
     assert np.abs(found[0] - first).max() < 3e-3 and np.abs(found[1] - last).max() < 3e-3
+
+
+def test_a_pass_is_the_first_of_all_and_none_leaves_the_picture():
+    depth, normal = wall()
+    noise = np.random.default_rng(0).random(depth.shape).astype(np.float32)
+    outcomes = []
+    for passes in (0, 1, 5):
+        svgf = SvgfFilter(*depth.shape, passes=passes)
+        svgf.see(depth, normal)
+        outcomes.append(svgf.smooth(noise, svgf.variance(noise, noise * noise)))
+    (_, none), (_, one), (first, five) = outcomes
+    assert np.array_equal(none, noise) and np.array_equal(one, first)
+    assert five.var() < one.var() / 4 < noise.var() / 16

@@ -203,7 +203,8 @@ def test_rays_that_beat_a_map_as_well_are_vacuous_below_a_thirtieth(samples, ver
         (1 / 240, -GAINS, None, verdicts.TOO_SMALL),
         (1 / 20, -GAINS, None, verdicts.CONTRADICTED),
         (1 / 240, GAINS, 1, verdicts.TOO_SMALL),
-        (1 / 240, GAINS, None, verdicts.SUPPORTED),
+        (1 / 240, GAINS, None, verdicts.TOO_SMALL),
+        (1 / 20, GAINS, None, verdicts.SUPPORTED),
         (1, GAINS, 1, verdicts.SUPPORTED),
     ],
 )

@@ -218,8 +218,9 @@ def test_what_violations_of_random_depths_cost_as_well_is_no_support():
 
 
 def test_violations_are_those_of_the_largest_budget():
-    curve = points("net", [1000, 2000], 2)
-    costs = {1000: (10, 30), 2000: (40, 15)}
+    half, whole = THESIS_SAMPLES // 2, THESIS_SAMPLES
+    curve = points("net", [half, whole], 2)
+    costs = {half: (10, 30), whole: (40, 15)}
     methods = {point["experiment"]: violated(*costs[point["samples"]]) for point in curve}
     data = measured({"dragon": scene(methods)}, {"net": curve})
     assert verdict({"kind": "violations", "rows": [[row("net")]]}, data) == "supported"

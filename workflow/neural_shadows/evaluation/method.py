@@ -134,15 +134,26 @@ def visibility(
     method: Method, frame: "SoftFrame", radius: float, constants: Constants
 ) -> np.ndarray:
     """A method's visibility at a frame's points, (n,) float32."""
+    if method.last is None:
+        return _unfiltered(method, frame, radius, constants)
+    own = {name: value for name, value in constants.items() if name not in method.of_last}
+    key = method.label, radius, *own.items()
+    if key not in frame.kept:
+        frame.kept.clear()
+        frame.kept[key] = _unfiltered(method, frame, radius, own)
+    of_last = {name: constants[name] for name in method.of_last}
+    return method.last(frame.surface, frame.kept[key], **of_last)
+
+
+def _unfiltered(
+    method: Method, frame: "SoftFrame", radius: float, constants: Constants
+) -> np.ndarray:
     if method.resolution is not None:
         frame = frame.with_map_of(method.resolution)
-    own = {name: value for name, value in constants.items() if name not in method.of_last}
-    shares = method.answer(frame, radius, **own)
-    if not method.by_rays and method.of_buffers is None:
-        shares = np.where(frame.cosines > 0, shares, np.float32(0))
-    if method.last is None:
+    shares = method.answer(frame, radius, **constants)
+    if method.by_rays or method.of_buffers is not None:
         return shares
-    return method.last(frame.surface, shares, **{name: constants[name] for name in method.of_last})
+    return np.where(frame.cosines > 0, shares, np.float32(0))
 
 
 def whatever_bias(visibility: np.ndarray) -> OfBias:

@@ -137,9 +137,9 @@ def _prepared(frame: SoftFrame) -> SoftFrame:
 def _answer(
     method: Method, frame: SoftFrame, radius: float, constants: Mapping[str, float]
 ) -> np.ndarray:
-    """A method's answer, without the surfaces that it saw before at other places in the pixels."""
-    anew = replace(frame)
-    vars(anew).update({k: v for k, v in vars(frame).items() if k != "_by_places"})
+    """A method's answer, without what it kept: surfaces at other places in the pixels, its rays."""
+    anew, kept = replace(frame), ("_by_places", "kept")
+    vars(anew).update({k: v for k, v in vars(frame).items() if k not in kept})
     return visibility(method, anew, radius, constants)
 
 

@@ -1,7 +1,9 @@
 """Input of soft-shadow methods: surface points, a light, its map."""
 
+from collections.abc import Hashable
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -86,6 +88,11 @@ class SoftFrame:
     @cached_property
     def _by_resolution(self) -> "dict[int, SoftFrame]":
         return {self.light_map.resolution: self}
+
+    @cached_property
+    def kept(self) -> dict[Hashable, Any]:
+        """What a method computes alike for many constants, the last alone; not in timed frames."""
+        return {}
 
     def at_places(self, places: "tuple[tuple[float, float], ...]") -> "list[SoftFrame]":
         """The same frame at other places in its pixels, cached.

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from plate_frames import CENTRE, RADIUS, error, plate, plate_frame, plate_truth
 
+from neural_shadows.evaluation import time_frames
 from neural_shadows.evaluation.method import visibility
 from neural_shadows.evaluation.method_parts import denoisers
 from neural_shadows.evaluation.method_parts.denoisers import BY_KEY
@@ -75,10 +76,25 @@ def test_filters_are_fed_rays_that_neighbours_spread_evenly(frame, key, monkeypa
     def independent(traced, *of_frame, samples, even):
         return traced(*of_frame, samples=samples)
 
+    frame.kept.clear()
     errors = {"even": error(method(key, 1).answer(frame, RADIUS), plate_truth())}
     monkeypatch.setattr(denoisers, "ray_traced", partial(independent, ray_traced))
+    frame.kept.clear()
     errors["independent"] = error(method(key, 1).answer(frame, RADIUS), plate_truth())
     assert errors["even"] < 0.7 * errors["independent"]
+
+
+def test_rays_are_traced_once_for_all_constants(frame, monkeypatch):
+    traced = []
+    monkeypatch.setattr(
+        denoisers, "ray_traced", lambda *a, **k: traced.append(a[1]) or ray_traced(*a, **k)
+    )
+    frame.kept.clear()
+    for radius, passes in ((RADIUS, 1), (RADIUS, 3), (RADIUS / 2, 3), (RADIUS, 1)):
+        method("svgf", 1).answer(frame, radius, passes=passes)
+    assert traced == [RADIUS, RADIUS / 2, RADIUS]
+    time_frames._answer(method("svgf", 1), frame, RADIUS, {"passes": 1})  # a time is with its rays
+    assert len(traced) == 4
 
 
 def test_quality_of_oidn_differs(frame):

@@ -35,7 +35,14 @@ class Denoiser:
     distances: bool = False
 
     def pictures(self, frame: SoftFrame, radius: float, samples: int) -> tuple[np.ndarray, ...]:
-        """Images of a frame's rays, for the filter."""
+        """Images of a frame's rays, for the filter; the same for all of its constants."""
+        key = radius, samples, self.distances
+        if key not in frame.kept:
+            frame.kept.clear()
+            frame.kept[key] = self._traced(frame, radius, samples)
+        return frame.kept[key]
+
+    def _traced(self, frame: SoftFrame, radius: float, samples: int) -> tuple[np.ndarray, ...]:
         surface = frame.surface
         if not self.distances:
             return (surface.image(ray_traced(frame, radius, samples=samples, even=True), 1.0),)

@@ -31,7 +31,11 @@ def _look(filter_: str, colour: str, marker: str, symbol: str, rays_are: str) ->
 
 # x86-64 only. Which of its networks leaves less, and at which value of full light, depends on rays and
 # light; 0 is the network of any range. Under suns 0.85 and 1 left half of what 0.5 does.
-_OIDN = {"tried": {"light": (0.0, 0.25, 0.5, 0.7, 0.85, 1.0)}, "history": False, "package": "pyoidn"}
+_OIDN = {
+    "tried": {"light": (0.0, 0.25, 0.5, 0.7, 0.85, 1.0)},
+    "history": False,
+    "package": "pyoidn",
+}
 # Steps of √2 where most are chosen, of 4 to 8 rays: 0.7 leaves 6 to 8 % less than 0.5 and 1 there. The least
 # are of use with a history, the largest with one ray under a large light.
 _SIGMA = (0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 5.6)

@@ -84,13 +84,15 @@ def _failure(claim: Claim, data: Measured, row: Row, budget: Budget) -> str:
 
 def _of_no_shadow(pair: Sequence[Row], data: Measured) -> Comparison:
     """Compare the losses of no shadow on a pair's rays, at the largest budget."""
+    fields = {"metric": "loss", "methods": NO_SHADOW, "text": NO_SHADOW}
+    if reason := data.unshared(pair):
+        return Comparison(**fields, incomparable=reason)
     runs = data.budgets(pair)[-1].runs
     first, second = (
         np.array([data.trainings[run]["no_shadow_loss"] for run in runs[row["experiment"]]])
         for row in pair
     )
-    advantage = judged(*t_interval(second - first))
-    return Comparison(metric="loss", methods=NO_SHADOW, text=NO_SHADOW, **advantage)
+    return Comparison(**fields, **judged(*t_interval(second - first)))
 
 
 def _comparison(pair: Sequence[Row], data: Measured) -> Comparison:

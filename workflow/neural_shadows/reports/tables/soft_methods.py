@@ -236,7 +236,8 @@ def _describe_constants(chosen: Mapping[str, Tuned], labels: Mapping[str, str]) 
         sentences.append(f"{sentence}.")
     if not sentences:
         return []
-    return ["Constants are the best on validation frames.", *sentences]
+    zero = "A `light` of 0 is Open Image Denoise's network for any range, a `width` of 0 no filter."
+    return ["Constants are the best on validation frames.", *sentences, zero]
 
 
 def _describe_choices(record: Tuned, choices: Sequence[TunedRadius]) -> str:

@@ -124,10 +124,11 @@ def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
 
 
 def without_networks(claim: Claim, data: Measured) -> dict[str, list[Comparison]]:
-    """The ratios of null predictors, by null; empty without networks, see `_null_ratio`."""
+    """The ratios of null predictors, by null, of those that have all, see `_null_ratio`."""
     if not claim["networks"]:
         return {}
-    return {null: [_of_null(ratio, data, null) for ratio in _ratios(claim)] for null in UNLEARNED}
+    nulls = {null: [_of_null(ratio, data, null) for ratio in _ratios(claim)] for null in UNLEARNED}
+    return {null: ratios for null, ratios in nulls.items() if all(each.number for each in ratios)}
 
 
 not_learned = screen_networks.not_learned
@@ -152,8 +153,10 @@ def of_another_size(table: pd.DataFrame, column: str, device: str | None = None)
 
 
 def _of_null(ratio: Ratio, data: Measured, null: str) -> Comparison:
-    """A null's ratio; supports only strictly within bounds."""
+    """A null's ratio, without a number if it has none; supports only strictly within bounds."""
     value = _null_ratio(data.tables[ratio.table], ratio, null)
+    if not np.isfinite(value):
+        return Comparison(metric=ratio.column, methods=null, text=null)
     inside = [
         SIDES[key] * (value - x) > 0
         for key, x in setting_types.bounds_of(ratio.model_dump()).items()
