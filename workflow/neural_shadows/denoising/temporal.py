@@ -3,7 +3,7 @@
 import numpy as np
 
 from neural_shadows.denoising.history import History
-from neural_shadows.denoising.svgf import PASSES, SIGMA_LUMINANCE, SvgfFilter
+from neural_shadows.denoising.svgf import SvgfFilter
 from neural_shadows.rendering.surface import Surface
 
 ALPHA = 0.2  # the least share of a new frame, of values and moments (Schied et al. 2017, 4.1)
@@ -16,17 +16,11 @@ class TemporalFilter:
     The history is the output of a frame's first pass (4.3).
 
     Args:
-        sigma_luminance, passes: see `SvgfFilter`.
+        constants: see `SvgfFilter`.
     """
 
-    def __init__(
-        self,
-        height: int,
-        width: int,
-        sigma_luminance: float = SIGMA_LUMINANCE,
-        passes: float = PASSES,
-    ):
-        self._spatial = SvgfFilter(height, width, sigma_luminance, passes)
+    def __init__(self, height: int, width: int, **constants: float):
+        self._spatial = SvgfFilter(height, width, **constants)
         # The picture, its mean, its mean square, and their number of frames.
         self._history = History()
 

@@ -137,7 +137,7 @@ def visibility(
     if method.last is None:
         return _unfiltered(method, frame, radius, constants)
     own = {name: value for name, value in constants.items() if name not in method.of_last}
-    key = method.label, radius, *own.items()
+    key = method.answer, method.resolution, radius, *own.items()
     if key not in frame.kept:
         frame.kept.clear()
         frame.kept[key] = _unfiltered(method, frame, radius, own)

@@ -182,7 +182,7 @@ def too_small(
 def _side(opposing: Sequence[Comparison], comparisons: Sequence[Comparison]) -> str:
     if opposing:
         return "against the claim"
-    return verdict_of(comparisons).replace(verdicts.SUPPORTED, "in its favour")
+    return "in its favour" if verdict_of(comparisons) == verdicts.SUPPORTED else verdicts.UNDECIDED
 
 
 def share(claim: Claim, samples: float) -> str:

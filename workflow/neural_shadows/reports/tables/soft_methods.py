@@ -226,6 +226,12 @@ def _describe_flicker(
     ]
 
 
+_ZEROS = {
+    "light": "A `light` of 0 is Open Image Denoise's network for colours of any range.",
+    "width": "A `width` of 0 is no filter.",
+}
+
+
 def _describe_constants(chosen: Mapping[str, Tuned], labels: Mapping[str, str]) -> list[str]:
     """Describe each method's constants, and those at an end of their range."""
     sentences = []
@@ -236,8 +242,9 @@ def _describe_constants(chosen: Mapping[str, Tuned], labels: Mapping[str, str]) 
         sentences.append(f"{sentence}.")
     if not sentences:
         return []
-    zero = "A `light` of 0 is Open Image Denoise's network for any range, a `width` of 0 no filter."
-    return ["Constants are the best on validation frames.", *sentences, zero]
+    tried = {name for record in chosen.values() for name in record["candidates"]}
+    zeros = [text for name, text in _ZEROS.items() if name in tried]
+    return ["Constants are the best on validation frames.", *sentences, *zeros]
 
 
 def _describe_choices(record: Tuned, choices: Sequence[TunedRadius]) -> str:
