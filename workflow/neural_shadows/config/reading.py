@@ -2,6 +2,7 @@
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,9 @@ MESHES_BY_NAME = {"wyrm": {"generate": "wyrm"}, "stanford": {"download": "stanfo
 # The key of all entries of a section that neither its file nor a later one names.
 OTHERS = "*"
 
+# Sections of what a run makes by default; `only` chooses among their entries.
+REPORTS = frozenset({"tables", "figures", "viewers", "claims"})
+
 
 def without_others(values: dict[str, Any], files: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
     """A merged configuration without entries dropped by `"*": null`.
@@ -43,6 +47,29 @@ def without_others(values: dict[str, Any], files: Iterable[Mapping[str, Any]]) -
         if dropped[name]
         else section
         for name, section in values.items()
+    }
+
+
+def of_files(values: dict[str, Any], files: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+    """A configuration with the reports of some files alone, `only`.
+
+    Args:
+        files: sections of each config file, by its name without ending.
+
+    Raises:
+        InputError: `only` names a file without reports.
+    """
+    only = values["only"]
+    only = [only] if isinstance(only, str) else only
+    reporting = [name for name, sections in files.items() if not REPORTS.isdisjoint(sections)]
+    for name in only:
+        if name not in reporting:
+            raise InputError(f"config: only: {not_among(name, reporting)}")
+    named = {section: {*chain(*(files[n].get(section) or () for n in only))} for section in REPORTS}
+    return values | {
+        section: {key: entry for key, entry in values[section].items() if key in names}
+        for section, names in named.items()
+        if isinstance(values.get(section), dict)
     }
 
 
@@ -98,7 +125,10 @@ def read_config(values: dict[str, Any], files: Sequence[str | Path] = ()) -> Con
     """
     if values.get("dragon", "wyrm") in (None, ""):
         raise InputError("config: dragon: is empty. Allowed: wyrm, stanford, or a mesh file")
-    values = _without_nulls(without_others(values, map(read_sections, files)))
+    by_name = {Path(file).stem: read_sections(file) for file in files}
+    values = _without_nulls(without_others(values, by_name.values()))
+    if values.get("only"):
+        values = of_files(values, by_name)
     if isinstance(shorthand := values.get("dragon"), str):
         scenes = values.get("scenes")
         if not isinstance(scenes, dict) or not isinstance(scenes.get("dragon"), dict):

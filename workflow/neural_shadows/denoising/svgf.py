@@ -5,6 +5,9 @@ gradients come from neighbouring pixels instead of a rasteriser, and the weights
 vectorisable approximation. All on one thread.
 """
 
+from collections.abc import Iterator
+from itertools import count, islice
+
 import numpy as np
 
 from neural_shadows.denoising.wavelet import (
@@ -60,16 +63,17 @@ class SvgfFilter:
         fill_moments(self._guides, mean, square, self._row, total, first, second)
         return np.maximum(second - first * first, 0)
 
-    def smooth(self, visibility: np.ndarray, variance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Smooth a picture (H, W) float32: after first and last pass (4.3).
+    def passes(self, visibility: np.ndarray, variance: np.ndarray) -> Iterator[np.ndarray]:
+        """A picture (H, W) float32 after each pass (4.3), as many as are asked for.
+
+        Its buffers are the filter's: take no more from it once another is begun.
 
         Args:
             visibility: (H, W) float32 in [0, 1]. variance: (H, W) float32, of its noise.
         """
         light, spread, sharpness, total, next_light, next_spread = self._images
         light[:], spread[:] = visibility, variance
-        first = visibility
-        for step in range(self._passes):
+        for step in count():
             fill_sharpness(spread, self.sigma_luminance, sharpness)
             fill_next(
                 self._guides,
@@ -84,11 +88,44 @@ class SvgfFilter:
             )
             light, next_light = next_light, light
             spread, next_spread = next_spread, spread
-            if step == 0:
-                first = np.clip(light, 0, 1)
-        return first, np.clip(light, 0, 1)
+            yield np.clip(light, 0, 1)
 
-    def single(self, visibility: np.ndarray, surface: Surface) -> np.ndarray:
-        """Smooth a picture (H, W) float32 without history."""
-        self.see(surface.depth_image(), surface.image(surface.n))
-        return self.smooth(visibility, self.variance(visibility, visibility * visibility))[1]
+    def smooth(self, visibility: np.ndarray, variance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Smooth a picture (H, W) float32: after first and last pass; see `passes`."""
+        pictures = [visibility, *islice(self.passes(visibility, variance), self._passes)]
+        return pictures[min(1, self._passes)], pictures[-1]
+
+
+class SvgfTrials:
+    """Pictures (height, width) without history, by any constants.
+
+    While they are of one picture its variance is computed once, and with one σ_l each pass: 24 settings
+    take a third of their time one by one.
+    """
+
+    def __init__(self, height: int, width: int):
+        self._filter = SvgfFilter(height, width)
+        self._of: tuple[np.ndarray | None, Surface | None] = None, None
+        self._sigma: float | None = None
+
+    def single(
+        self,
+        visibility: np.ndarray,
+        surface: Surface,
+        *,
+        sigma_luminance: float = SIGMA_LUMINANCE,
+        passes: float = PASSES,
+    ) -> np.ndarray:
+        """Smooth a picture (H, W) float32, which must be the same while it is the same array."""
+        svgf = self._filter
+        if visibility is not self._of[0] or surface is not self._of[1]:
+            svgf.see(surface.depth_image(), surface.image(surface.n))
+            self._variance = svgf.variance(visibility, visibility * visibility)
+            self._of, self._sigma = (visibility, surface), None
+        if sigma_luminance != self._sigma:
+            self._sigma = sigma_luminance
+            svgf.sigma_luminance = np.float32(sigma_luminance)
+            self._further, self._pictures = svgf.passes(visibility, self._variance), [visibility]
+        missing = int(passes) + 1 - len(self._pictures)
+        self._pictures += islice(self._further, max(missing, 0))
+        return self._pictures[int(passes)]

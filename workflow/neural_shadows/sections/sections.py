@@ -39,6 +39,10 @@ class Sections(Model):
     up: Literal["x", "y", "z"] | None = Field(
         None, description="vertical axis of the dragon's mesh, overriding its scene's"
     )
+    only: Name | list[Name] | None = Field(
+        None,
+        description="files whose tables, figures, viewers and claims alone are made, as `hu_2025`",
+    )
     compute: Compute = Field(Compute(), description="device, threads and number format of networks")
     scenes: dict[Name, Scene] = Field(
         description="meshes in their unit sphere, and arrangements in metres, by name"

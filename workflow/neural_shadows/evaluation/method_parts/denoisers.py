@@ -11,7 +11,7 @@ from neural_shadows.denoising.ffx import FfxFilter, TemporalFfx
 from neural_shadows.denoising.oidn import ANY_RANGE, open_image_denoise
 from neural_shadows.denoising.sigma import SigmaFilter, TemporalSigma
 from neural_shadows.denoising.sigma_ffx import SigmaFfxFilter, TemporalSigmaFfx
-from neural_shadows.denoising.svgf import SvgfFilter
+from neural_shadows.denoising.svgf import SvgfTrials
 from neural_shadows.denoising.temporal import TemporalFilter
 from neural_shadows.frames.ray_tracing import ray_traced, ray_traced_penumbrae
 from neural_shadows.frames.soft_frame import SoftFrame
@@ -109,6 +109,13 @@ def _single(kind: type) -> Callable:
     return single
 
 
+_svgf_trials = lru_cache(maxsize=1)(SvgfTrials)
+
+
+def _svgf(picture: np.ndarray, surface: Surface, **constants: float) -> np.ndarray:
+    return _svgf_trials(*picture.shape).single(picture, surface, **constants)
+
+
 def _oidn(
     picture: np.ndarray, surface: Surface, *, quality: str, light: float = ANY_RANGE
 ) -> np.ndarray:
@@ -117,7 +124,7 @@ def _oidn(
 
 
 BY_KEY = {
-    "svgf": Denoiser(_single(SvgfFilter), TemporalFilter),
+    "svgf": Denoiser(_svgf, TemporalFilter),
     "ffx": Denoiser(_single(FfxFilter), TemporalFfx),
     "sigma": Denoiser(_single(SigmaFilter), TemporalSigma, distances=True),
     "sigma_ffx": Denoiser(_single(SigmaFfxFilter), TemporalSigmaFfx, distances=True),

@@ -258,6 +258,8 @@ def tune(layout: Layout, frame_set: str, group: str, method: str) -> Work:
     tried = 1
     for count in counts:
         tried = tried * count if tuned.joint else tried + count
+    if "passes" in tuned.constants:
+        tried /= 3  # settings share them
     answers = tried * pixels * _lights(layout, frame_set)
     if frame_methods.has_history(method) and (length := layout.frames(frame_set)["sequence"]):
         answers += sum(counts) * (RUN_IN + length) * _size(layout, frame_set)
