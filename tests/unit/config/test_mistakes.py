@@ -111,7 +111,7 @@ frame_sets.views | {path: mine} | frame_sets.views: only `views` holds views of 
 frame_sets.mine | {width: 600, height: 400, views_per_set: 24, batch: 12} | frame_sets.mine: only `views` holds
 frame_sets.frames.scenes | [rom] | frame_sets.frames.scenes.0: 'rom' (did you mean 'room'?) is not among
 frame_sets.frames.unseen | [hall] | frame_sets.frames: unseen: hall is also in `scenes`
-tables.nsm_methods.methods | [pcss, nsm_joint] | 'nsm_joint' is trained on room_dragon, in `unseen` of frame_sets.nsm
+experiments.nsm_plain | {network: nsm, training: nsm_plain, frame_set: frames, scenes: [room_dragon], label: Other} | 'nsm_plain' is trained on room_dragon, in `unseen` of frame_sets.nsm
 tables.soft_sun.methods | [pcss, nsm] | 'nsm' is trained on lights with radii in metres, and frame_sets.sun has them in degrees
 frame_sets.frames.unseen | [room] | frame_sets.frames.unseen: 'room' has the generator 'room' and no object beyond
 frame_sets.nsm.twins | {count: 3, light_texels: 1, light: 0.01} | frame_sets.nsm.twins: unknown key: 'light' (did you mean
@@ -169,7 +169,7 @@ experiments.nsm.training | {steps: 10, crops: 2, crop: 32, learning_rate: 0.1, t
 experiments.nsm.training | {steps: 10, crops: 2, crop: 32, learning_rate: 0.1, schedule: steps, tenth_from: [4, 10]} | = [4, 10]: must be ascending, without repetition, and end below steps = 10
 networks_by_scene.mine | {experiments: [nsm, nsm_plain], label: Mine} | networks_by_scene.mine.experiments: 'room' has two networks
 networks_by_scene.nsm | {experiments: [nsm], label: Mine} | networks_by_scene.nsm: an entry of `experiments` has this name
-frame_sets.windows.unseen | [] | tables.kpnsm_unseen.over: frame_sets.windows has no `unseen`
+frame_sets.windows.unseen | [] | tables.shipped_unseen.over: frame_sets.windows has no `unseen`
 frame_sets.windows.sequence | 0 | tables.kpnsm_table_3.frame_set: frame_sets.windows has sequence = 0
 tables.kpnsm_unseen.metrics | [time] | tables.kpnsm_unseen: metrics: time is not available with `by: scene`
 tables.kpnsm_unseen.methods | [kpnsm, {method: kpnsm, label: K}] | tables.kpnsm_unseen.methods: 'kpnsm' is listed twice

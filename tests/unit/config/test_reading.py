@@ -4,7 +4,8 @@ import copy
 import re
 
 import pytest
-from shipped import shipped
+from checkout import ROOT
+from shipped import DEFAULT, shipped
 
 from neural_shadows.config.reading import check_files, read_config, read_sections
 from neural_shadows.errors import InputError
@@ -114,3 +115,21 @@ def test_a_message_names_the_file_and_line_of_its_key(tmp_path, values):
     values["seed"] = 3
     values["scenes"]["dragon"]["light"] = 5  # of no file: the last that has the scene
     assert said().endswith("mine.yaml, line 3]")
+
+
+def test_only_one_files_reports_are_made(values):
+    """Its entries, however a later overlay changes them; all that they are made of stays."""
+    files = [ROOT / "config" / f"{name}.yaml" for name in DEFAULT]
+    whole = read_config(values, files)
+    hu = read_config(values | {"only": "hu_2025"}, files)
+    assert hu.tables.keys() == {name for name in whole.tables if name.startswith("kpnsm_")}
+    assert hu.figures.keys() == {name for name in whole.figures if name.startswith("figure_kpnsm_")}
+    assert "kpnsm_leaks_less" in hu.claims and "msm_leaks" not in hu.claims and not hu.viewers
+    assert hu.experiments == whole.experiments and hu.scenes == whole.scenes
+    both = read_config(values | {"only": ["hu_2025", "soft_shadows"]}, files)
+    assert {*hu.tables, "soft_sun"} < both.tables.keys() and "msm_leaks" in both.claims
+    with pytest.raises(InputError, match="only: .hu. is not among spanhoff_2026"):
+        read_config(values | {"only": "hu"}, files)
+    for name in DEFAULT[1:-1]:  # each is valid alone, and all together are the whole
+        read_config(values | {"only": name}, files)
+    assert read_config(values | {"only": DEFAULT[1:-1]}, files).claims == whole.claims

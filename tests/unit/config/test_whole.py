@@ -64,7 +64,7 @@ def test_every_key_is_of_use_to_a_shipped_file():
     unused = {key for m, key in there if key in m.model_fields and (m, key) not in used}
     unused -= {"weights", "sha256"}  # taken out while networks are trained anew
     # Given on the command line; frames of a user's own.
-    assert unused == {"trunk", "path", "up", "engine", *EngineFrames.model_fields}
+    assert unused == {"trunk", "path", "up", "only", "engine", *EngineFrames.model_fields}
 
 
 def test_commands_name_their_targets_first():
