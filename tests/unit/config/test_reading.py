@@ -130,6 +130,25 @@ def test_only_one_files_reports_are_made(values):
     assert {*hu.tables, "soft_sun"} < both.tables.keys() and "msm_leaks" in both.claims
     with pytest.raises(InputError, match="only: .hu. is not among spanhoff_2026"):
         read_config(values | {"only": "hu"}, files)
-    for name in DEFAULT[1:-1]:  # each is valid alone, and all together are the whole
+    reporting = [
+        name for name in DEFAULT if "tables" in read_sections(ROOT / f"config/{name}.yaml")
+    ]
+    for name in reporting:  # each is valid alone, and all together are the whole
         read_config(values | {"only": name}, files)
-    assert read_config(values | {"only": DEFAULT[1:-1]}, files).claims == whole.claims
+    assert read_config(values | {"only": reporting}, files).claims == whole.claims
+    for wrong in (1, True, [1], [None]):
+        with pytest.raises(InputError, match="only = .* give one of spanhoff_2026"):
+            read_config(values | {"only": wrong}, files)
+
+
+def test_two_files_of_one_name_are_two(tmp_path, values):
+    """An overlay may have the name of a default file, which it does not replace."""
+    overlay = tmp_path / "soft_shadows.yaml"
+    overlay.write_text(
+        'tables: {"*": null, soft_sun: {}}\nfigures: {"*": null}\nclaims: {"*": null}'
+    )
+    files = [*(ROOT / "config" / f"{name}.yaml" for name in DEFAULT), overlay]
+    for section in ("tables", "figures", "claims"):
+        values[section] |= {"*": None}
+    config = read_config(values, files)
+    assert [*config.tables] == ["soft_sun"] and not config.figures

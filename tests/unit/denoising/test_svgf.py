@@ -4,10 +4,9 @@ from itertools import product
 
 import numpy as np
 from filtered_walls import COLUMNS, HEIGHT, WIDTH, wall
-from plate_frames import plate_frame
 from scipy.ndimage import convolve, uniform_filter
 
-from neural_shadows.denoising.svgf import SvgfFilter, SvgfTrials
+from neural_shadows.denoising.svgf import SvgfFilter
 
 
 def test_variance_on_a_wall_is_that_of_49_pixels():
@@ -70,17 +69,3 @@ def test_a_pass_is_the_first_of_all_and_none_leaves_the_picture():
     (_, none), (_, one), (first, five) = outcomes
     assert np.array_equal(none, noise) and np.array_equal(one, first)
     assert five.var() < one.var() / 4 < noise.var() / 16
-
-
-def test_settings_tried_one_after_another_are_each_as_alone():
-    surface = plate_frame().surface
-    rng = np.random.default_rng(6)
-    rays = [
-        (rng.random((surface.height, surface.width)) < 0.5).astype(np.float32) for _ in range(2)
-    ]
-    together, order = SvgfTrials(*rays[0].shape), [(1, 5), (1, 2), (16, 2), (16, 3), (1, 3), (1, 0)]
-    for picture in (rays[0], rays[1], rays[0].copy()):
-        for sigma, passes in order:
-            setting = {"sigma_luminance": sigma, "passes": passes}
-            alone = SvgfTrials(*picture.shape).single(picture, surface, **setting)
-            assert np.array_equal(together.single(picture, surface, **setting), alone)

@@ -6,7 +6,7 @@ from plate_frames import HEIGHT, RADIUS, WIDTH, error, plate_frame, plate_truth
 
 from neural_shadows.denoising.ffx import FfxFilter, TemporalFfx
 from neural_shadows.denoising.sigma import SigmaFilter, TemporalSigma
-from neural_shadows.denoising.sigma_ffx import SigmaFfxFilter, TemporalSigmaFfx
+from neural_shadows.denoising.sigma_ffx import SigmaFfxTrials, TemporalSigmaFfx
 from neural_shadows.denoising.svgf import SvgfTrials
 from neural_shadows.denoising.temporal import TemporalFilter
 
@@ -20,7 +20,7 @@ ALONE = {
     "svgf": SvgfTrials,
     "ffx": FfxFilter,
     "sigma": SigmaFilter,
-    "sigma_ffx": SigmaFfxFilter,
+    "sigma_ffx": SigmaFfxTrials,
 }
 
 

@@ -2,7 +2,6 @@
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
-from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -50,25 +49,32 @@ def without_others(values: dict[str, Any], files: Iterable[Mapping[str, Any]]) -
     }
 
 
-def of_files(values: dict[str, Any], files: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+def of_files(
+    values: dict[str, Any], files: Sequence[tuple[str, Mapping[str, Any]]]
+) -> dict[str, Any]:
     """A configuration with the reports of some files alone, `only`.
 
     Args:
-        files: sections of each config file, by its name without ending.
+        files: each config file's name without ending, and its sections.
 
     Raises:
-        InputError: `only` names a file without reports.
+        InputError: `only` is no name of a file with reports, nor a list of them.
     """
-    only = values["only"]
-    only = [only] if isinstance(only, str) else only
-    reporting = [name for name, sections in files.items() if not REPORTS.isdisjoint(sections)]
+    only = [values["only"]] if isinstance(values["only"], str) else values["only"]
+    reporting = [name for name, sections in files if not REPORTS.isdisjoint(sections)]
+    if not isinstance(only, list) or not all(isinstance(name, str) for name in only):
+        raise InputError(f"config: only = {only!r}: give one of {', '.join(reporting)}, or a list")
     for name in only:
         if name not in reporting:
             raise InputError(f"config: only: {not_among(name, reporting)}")
-    named = {section: {*chain(*(files[n].get(section) or () for n in only))} for section in REPORTS}
+    chosen = [sections for name, sections in files if name in only]
     return values | {
-        section: {key: entry for key, entry in values[section].items() if key in names}
-        for section, names in named.items()
+        section: {
+            key: entry
+            for key, entry in values[section].items()
+            if any(key in (sections.get(section) or ()) for sections in chosen)
+        }
+        for section in REPORTS
         if isinstance(values.get(section), dict)
     }
 
@@ -125,10 +131,10 @@ def read_config(values: dict[str, Any], files: Sequence[str | Path] = ()) -> Con
     """
     if values.get("dragon", "wyrm") in (None, ""):
         raise InputError("config: dragon: is empty. Allowed: wyrm, stanford, or a mesh file")
-    by_name = {Path(file).stem: read_sections(file) for file in files}
-    values = _without_nulls(without_others(values, by_name.values()))
+    sections = [read_sections(file) for file in files]
+    values = _without_nulls(without_others(values, sections))
     if values.get("only"):
-        values = of_files(values, by_name)
+        values = of_files(values, [*zip((Path(file).stem for file in files), sections)])
     if isinstance(shorthand := values.get("dragon"), str):
         scenes = values.get("scenes")
         if not isinstance(scenes, dict) or not isinstance(scenes.get("dragon"), dict):

@@ -38,7 +38,7 @@ class FfxFilter:
     """
 
     def __init__(self, height: int, width: int, sigma: float = SIGMA):
-        self._sharpness = np.float32(1 / sigma)
+        self.sigma = sigma
         self._nearby = Neighbourhoods(height, width)
         self._guides = np.zeros((4, height, width), np.float32)
         self._images = np.empty((4, height, width), np.float32)
@@ -79,7 +79,7 @@ class FfxFilter:
                 light,
                 spread,
                 self._nearby.mixed,
-                self._sharpness,
+                np.float32(1 / self.sigma),
                 step,
                 next_light,
                 next_spread,

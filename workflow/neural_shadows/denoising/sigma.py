@@ -53,7 +53,7 @@ class SigmaFilter:
 
     def __init__(self, height: int, width: int, reach: float = REACH, alone: bool = True):
         self._alone = alone
-        self._reach = np.float32(reach)
+        self.reach = reach
         self._nearby = Neighbourhoods(height, width)
         self._guides = np.zeros((7, height, width), np.float32)
         self._images = np.empty((6, height, width), np.float32)
@@ -94,7 +94,7 @@ class SigmaFilter:
                 share,
                 width,
                 self._nearby.mixed,
-                self._reach,
+                np.float32(self.reach),
                 self._alone,
                 PASSES * turned + number,
                 next_light,

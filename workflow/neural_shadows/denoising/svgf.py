@@ -100,13 +100,16 @@ class SvgfTrials:
     """Pictures (height, width) without history, by any constants.
 
     While they are of one picture its variance is computed once, and with one σ_l each pass: 24 settings
-    take a third of their time one by one.
+    take a quarter of their time one by one.
     """
 
     def __init__(self, height: int, width: int):
         self._filter = SvgfFilter(height, width)
         self._of: tuple[np.ndarray | None, Surface | None] = None, None
+        self._variance: np.ndarray | None = None
         self._sigma: float | None = None
+        self._pictures: list[np.ndarray] = []  # after no pass, after one, …
+        self._further: Iterator[np.ndarray] = iter(())
 
     def single(
         self,
@@ -116,7 +119,7 @@ class SvgfTrials:
         sigma_luminance: float = SIGMA_LUMINANCE,
         passes: float = PASSES,
     ) -> np.ndarray:
-        """Smooth a picture (H, W) float32, which must be the same while it is the same array."""
+        """Smooth a picture (H, W) float32; neither it nor what is returned may be written to."""
         svgf = self._filter
         if visibility is not self._of[0] or surface is not self._of[1]:
             svgf.see(surface.depth_image(), surface.image(surface.n))

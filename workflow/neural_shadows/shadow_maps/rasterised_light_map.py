@@ -21,7 +21,7 @@ def rasterised_depths(light_map: LightMap, vertices: np.ndarray, faces: np.ndarr
     size, half = light_map.resolution, light_map.half
     offset = vertices.astype(np.float64) - light_map.centre
     depths = np.empty((len(light_map.faces), size, size), np.float32)
-    across = half * (2 * (np.arange(size) + 0.5) / size - 1)
+    across = np.float32(half * (2 * (np.arange(size) + 0.5) / size - 1))
     for image, axes in zip(depths, light_map.faces):
         points, clipped = _before(offset @ axes.T, faces, _NEAR * np.abs(offset).max(initial=1.0))
         x, y, depth = points.T
@@ -35,11 +35,14 @@ def rasterised_depths(light_map: LightMap, vertices: np.ndarray, faces: np.ndarr
 @njit(cache=True, nogil=True, error_model="numpy")
 def _fill_distances(nearest, across, image):
     """Distances of texels (size, size) by the largest inverse depth; ∞ where it is 0."""
+    none, far = np.float32(0), np.float32(np.inf)
     for row in range(len(across)):
+        aslant = np.float32(1) + across[row] * across[row]
         for column in range(len(across)):
             inverse = nearest[row, column]
-            length = np.sqrt(1 + across[row] ** 2 + across[column] ** 2)  # of a ray that is 1 deep
-            image[row, column] = length / inverse if inverse > 0 else np.inf
+            length = np.sqrt(aslant + across[column] * across[column])  # of a ray that is 1 deep
+            distance = length / inverse
+            image[row, column] = distance if inverse > none else far
 
 
 def _before(points: np.ndarray, faces: np.ndarray, near: float) -> tuple[np.ndarray, np.ndarray]:

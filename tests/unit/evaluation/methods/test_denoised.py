@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from plate_frames import CENTRE, RADIUS, error, plate, plate_frame, plate_truth
 
+from neural_shadows.denoising.svgf import SvgfFilter
 from neural_shadows.evaluation import time_frames
 from neural_shadows.evaluation.method import visibility
 from neural_shadows.evaluation.method_parts import denoisers
@@ -93,8 +94,21 @@ def test_rays_are_traced_once_for_all_constants(frame, monkeypatch):
     for radius, passes in ((RADIUS, 1), (RADIUS, 3), (RADIUS / 2, 3), (RADIUS, 1)):
         method("svgf", 1).answer(frame, radius, passes=passes)
     assert traced == [RADIUS, RADIUS / 2, RADIUS]
-    time_frames._answer(method("svgf", 1), frame, RADIUS, {"passes": 1})  # a time is with its rays
-    assert len(traced) == 4
+
+
+def test_a_time_is_of_all_that_a_frame_takes(frame, monkeypatch):
+    """Nothing is kept from the time before: neither rays nor what settings share."""
+    calls = []
+
+    def counted(function, name):
+        return lambda *a, **k: calls.append(name) or function(*a, **k)
+
+    monkeypatch.setattr(denoisers, "ray_traced", counted(ray_traced, "rays"))
+    for name in ("variance", "passes"):
+        monkeypatch.setattr(SvgfFilter, name, counted(getattr(SvgfFilter, name), name))
+    for _ in range(2):
+        time_frames._answer(method("svgf", 1), frame, RADIUS, {"passes": 1})
+    assert calls == 2 * ["rays", "variance", "passes"]
 
 
 def test_quality_of_oidn_differs(frame):

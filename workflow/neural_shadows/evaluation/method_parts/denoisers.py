@@ -10,7 +10,7 @@ import numpy as np
 from neural_shadows.denoising.ffx import FfxFilter, TemporalFfx
 from neural_shadows.denoising.oidn import ANY_RANGE, open_image_denoise
 from neural_shadows.denoising.sigma import SigmaFilter, TemporalSigma
-from neural_shadows.denoising.sigma_ffx import SigmaFfxFilter, TemporalSigmaFfx
+from neural_shadows.denoising.sigma_ffx import SigmaFfxTrials, TemporalSigmaFfx
 from neural_shadows.denoising.svgf import SvgfTrials
 from neural_shadows.denoising.temporal import TemporalFilter
 from neural_shadows.frames.ray_tracing import ray_traced, ray_traced_penumbrae
@@ -109,11 +109,15 @@ def _single(kind: type) -> Callable:
     return single
 
 
-_svgf_trials = lru_cache(maxsize=1)(SvgfTrials)
+def _tried(kind: type) -> Callable:
+    """A `Denoiser`'s `single` by one object for all constants, which share what they can."""
+    cached = lru_cache(maxsize=1)(kind)
 
+    def single(*pictures_and_surface, **constants: float) -> np.ndarray:
+        trials = cached(*pictures_and_surface[0].shape)
+        return trials.single(*pictures_and_surface, **constants)
 
-def _svgf(picture: np.ndarray, surface: Surface, **constants: float) -> np.ndarray:
-    return _svgf_trials(*picture.shape).single(picture, surface, **constants)
+    return single
 
 
 def _oidn(
@@ -124,10 +128,10 @@ def _oidn(
 
 
 BY_KEY = {
-    "svgf": Denoiser(_svgf, TemporalFilter),
+    "svgf": Denoiser(_tried(SvgfTrials), TemporalFilter),
     "ffx": Denoiser(_single(FfxFilter), TemporalFfx),
     "sigma": Denoiser(_single(SigmaFilter), TemporalSigma, distances=True),
-    "sigma_ffx": Denoiser(_single(SigmaFfxFilter), TemporalSigmaFfx, distances=True),
+    "sigma_ffx": Denoiser(_tried(SigmaFfxTrials), TemporalSigmaFfx, distances=True),
     "oidn_fast": Denoiser(partial(_oidn, quality="fast")),
     "oidn": Denoiser(partial(_oidn, quality="high")),
 }

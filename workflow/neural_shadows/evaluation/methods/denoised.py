@@ -43,7 +43,7 @@ DENOISERS = {
     "svgf": Denoiser(
         "SVGF-like",
         _look("SVGF-like filter", PINK, "v", "▼", "smoothed within surfaces."),
-        (1, 2, 4, 5, 16, 30),  # NSM has 5, kernel prediction 30
+        (1, 2, 4, 5, 30),  # NSM has 5, kernel prediction 30
         # In print σ is 4 and passes are five [4.3, 4.4]; of visibility fewer left 10 to 44 % less. One after
         # the other, the two left up to 1.8 times what they leave together.
         {"sigma_luminance": (1.0, 2.0, 4.0, 8.0, 16.0, 32.0), "passes": (1, 2, 3, 5)},
@@ -81,7 +81,6 @@ DENOISERS = {
     "oidn": Denoiser(
         "OIDN",
         _look("Open Image Denoise", ORANGE, "X", "✕", "denoised by a network."),
-        (1, 2, 4, 16, 30),
         **_OIDN,
     ),
 }

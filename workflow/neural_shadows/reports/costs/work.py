@@ -228,6 +228,7 @@ WORDS |= {
 }
 COUNTED = {"cone": 0.3, "field": 0.7, "pcf": 0.02}
 OTHER = 0.05
+SHARED = 3.7  # settings of the SVGF-like filter share their passes: 7.5 s in place of 28 s a frame
 
 
 def _answers(layout: Layout, method: str, pixels: float) -> Work:
@@ -259,7 +260,7 @@ def tune(layout: Layout, frame_set: str, group: str, method: str) -> Work:
     for count in counts:
         tried = tried * count if tuned.joint else tried + count
     if "passes" in tuned.constants:
-        tried /= 3  # settings share them
+        tried /= SHARED
     answers = tried * pixels * _lights(layout, frame_set)
     if frame_methods.has_history(method) and (length := layout.frames(frame_set)["sequence"]):
         answers += sum(counts) * (RUN_IN + length) * _size(layout, frame_set)
