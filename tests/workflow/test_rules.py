@@ -4,7 +4,7 @@ import contextlib
 import inspect
 import os
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import MISSING, fields, is_dataclass
 from importlib import import_module
 from typing import Any
@@ -15,7 +15,7 @@ from checkout import ROOT
 from snakemake.api import SnakemakeApi
 from snakemake.exceptions import WorkflowError
 from snakemake.iocontainers import Wildcards
-from snakemake.settings.types import OutputSettings, Quietness, ResourceSettings
+from snakemake.settings.types import ConfigSettings, OutputSettings, Quietness, ResourceSettings
 
 from neural_shadows.reports.costs import work
 from neural_shadows.reports.costs.plan import EVERYTHING, plan
@@ -42,6 +42,13 @@ RETURNED = ("table", "claims", "expected_minutes")
 @pytest.fixture(scope="module")
 def workflow() -> Iterator[Any]:
     """The rules as Snakemake reads them."""
+    with read_rules({}) as workflow:
+        yield workflow
+
+
+@contextlib.contextmanager
+def read_rules(config: Mapping[str, Any]) -> Iterator[Any]:
+    """The rules with values of `--config`."""
     with (
         # Figures in three dimensions, too; and a started EGL does not suffer the stages' libraries.
         mock.patch.object(opengl, "available", lambda: True),
@@ -49,7 +56,8 @@ def workflow() -> Iterator[Any]:
         contextlib.chdir(ROOT),
         SnakemakeApi(OutputSettings(quiet={Quietness.ALL})) as api,
     ):
-        yield api.workflow(ResourceSettings(cores=1), snakefile=ROOT / "Snakefile")._workflow
+        given = ResourceSettings(cores=1), ConfigSettings(config=config)
+        yield api.workflow(*given, snakefile=ROOT / "Snakefile")._workflow
 
 
 def entries(workflow: Any, rule: Any) -> list[dict[str, str]]:
@@ -143,9 +151,17 @@ def test_the_plan_has_all_jobs_of_a_report(workflow):
     counts = Counter(jobs[index]["rule"] for index in of_table)
     assert counts == {
         **{"get_mesh": 1, "prepare_mesh": 1, "draw_directions": 1, "sample_rays": 4},
-        **{"describe_rays": 1, "train": 2, "render_references": 3, "find_lpips": 1, "tune": 1},
-        **{"preview_scene": 1, "evaluate": 18, "figure": 2, "table": 1},
+        **{"describe_rays": 1, "train": 2, "render_references": 2, "find_lpips": 1, "tune": 1},
+        **{"preview_scene": 1, "evaluate": 9, "figure": 2, "table": 1},
     }
     assert {*of_table} < {*planned["targets"][EVERYTHING]}
     assert len({(job["rule"], job["name"]) for job in jobs}) == len(jobs)
     assert all(sum(job["work"].values()) > 0 for job in jobs)
+
+
+def test_soft_shadows_alone_take_no_training():
+    with read_rules({"only": "soft_shadows"}) as workflow:
+        planned = plan(workflow.globals["LAYOUT"], workflow.rules)
+    rules = Counter(planned["jobs"][index]["rule"] for index in planned["targets"][EVERYTHING])
+    assert rules["table"] == 6 and rules["claims"] == 1 and rules["evaluate"] > 100
+    assert rules["restore_weights"] == 4 and "train" not in rules
