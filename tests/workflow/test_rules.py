@@ -151,8 +151,8 @@ def test_the_plan_has_all_jobs_of_a_report(workflow):
     counts = Counter(jobs[index]["rule"] for index in of_table)
     assert counts == {
         **{"get_mesh": 1, "prepare_mesh": 1, "draw_directions": 1, "sample_rays": 4},
-        **{"describe_rays": 1, "train": 2, "render_references": 2, "find_lpips": 1, "tune": 1},
-        **{"preview_scene": 1, "evaluate": 9, "figure": 2, "table": 1},
+        **{"describe_rays": 1, "train": 2, "render_references": 3, "find_lpips": 1, "tune": 1},
+        **{"preview_scene": 1, "evaluate": 18, "figure": 2, "table": 1},
     }
     assert {*of_table} < {*planned["targets"][EVERYTHING]}
     assert len({(job["rule"], job["name"]) for job in jobs}) == len(jobs)
