@@ -45,11 +45,12 @@ def settings(layout: Layout, scene: str) -> dict[str, Any]:
 
 
 def _advice(layout: Layout, scene: str) -> str:
-    """Next command to type, for the last table with the scene.
+    """Next command to type, for the last table with the scene that is not on request.
 
     An overlay's tables come last, so that a user's own is named before shipped ones.
     """
-    tables = [name for name in layout.settings["tables"] if _has(layout, name, scene)]
+    default = [name for name, table in layout.settings["tables"].items() if not table["on_request"]]
+    tables = [name for name in default if _has(layout, name, scene)]
     if not tables:
         return f"Next: a table (`tables`) with {scene} in its rows or its frame set."
     return f"Next: snakemake {layout.paths.report(f'{tables[-1]}.csv')}, with the same options."
