@@ -118,7 +118,7 @@ def test_a_message_names_the_file_and_line_of_its_key(tmp_path, values):
 
 
 def test_only_one_files_reports_are_made(values):
-    """Its entries, however a later overlay changes them; all that they are made of stays."""
+    """Of `only`; all that they are made of stays."""
     files = [ROOT / "config" / f"{name}.yaml" for name in DEFAULT]
     whole = read_config(values, files)
     hu = read_config(values | {"only": "hu_2025"}, files)

@@ -100,7 +100,7 @@ class SvgfTrials:
     """Pictures (height, width) without history, by any constants.
 
     While they are of one picture its variance is computed once, and with one σ_l each pass: 24 settings
-    take a quarter of their time one by one.
+    take less than a third of their time one by one.
     """
 
     def __init__(self, height: int, width: int):

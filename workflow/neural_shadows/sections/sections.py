@@ -39,7 +39,7 @@ class Sections(Model):
     up: Literal["x", "y", "z"] | None = Field(
         None, description="vertical axis of the dragon's mesh, overriding its scene's"
     )
-    only: Name | list[Name] | None = Field(
+    only: str | list[str] | None = Field(
         None,
         description="files whose tables, figures, viewers and claims alone are made, as `hu_2025`",
     )

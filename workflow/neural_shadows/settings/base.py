@@ -41,7 +41,9 @@ def not_among(value: str, allowed: Iterable[str]) -> str:
     names = list(allowed)
     close = get_close_matches(value, names, 1)
     meant = f" (did you mean {close[0]!r}?)" if close else ""
-    return f"{value!r}{meant} is not among {_listed(names) or 'the configured, of which there are none'}"
+    if not names:
+        return f"{value!r} is not there: the configuration has none"
+    return f"{value!r}{meant} is not among {_listed(names)}"
 
 
 def _listed(names: list[str]) -> str:
