@@ -39,6 +39,16 @@ def test_frames_are_stored_without_loss_beside_their_scores(tmp_path):
     assert hard_comparisons(**files | {"references": []}, rows=rows, meshes={}) == []
 
 
+def test_the_thesis_s_network_is_shown_first(tmp_path):
+    """Though a trained field errs no more: the best method looks like the reference."""
+    field = row("shadow_map_128") | {"encoding": "occupancy_field", "trained": True}
+    rows = [field, row("shadow_map_512"), row("dragon")]
+    (data,) = hard_comparisons(**write_evaluated(tmp_path), rows=rows, meshes={})
+    assert data["left"] == "dragon"
+    (data,) = hard_comparisons(**write_evaluated(tmp_path), rows=rows[:2], meshes={})
+    assert data["left"] == "shadow_map_128"
+
+
 def test_map_is_black_where_nothing_differs():
     error = np.zeros((4, 6))
     error[2:, 4:] = 1

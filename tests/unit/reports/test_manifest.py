@@ -10,8 +10,9 @@ from report_samples import MACHINE, RUN, write_record
 from rocrate.rocrate import ROCrate
 
 from neural_shadows.files.whole_files import sha256_of
+from neural_shadows.reports.data import run_command
 from neural_shadows.reports.runs import manifest
-from neural_shadows.reports.runs.manifest import jobs_of, time_of, without_folders, write_manifest
+from neural_shadows.reports.runs.manifest import jobs_of, time_of, write_manifest
 from neural_shadows.running.origin import CHECKOUT, commit_of
 from neural_shadows.running.provenance import log_line, read_log_line
 
@@ -35,7 +36,7 @@ def write_log(folder, name, commit, machine=MACHINE):
 @pytest.fixture
 def written(tmp_path, monkeypatch):
     """A manifest of a table, a scene's picture and a table on request."""
-    monkeypatch.setenv(manifest.COMMAND, "snakemake --config dragon=/home/reader/dragon.ply")
+    monkeypatch.setenv(run_command.VARIABLE, "snakemake --config dragon=/home/reader/dragon.ply")
     reports = tmp_path / "reports"
     (reports / "scenes").mkdir(parents=True)
     paths = [reports / name for name in ("table.csv", "scenes/dragon.png", "stored.csv")]
@@ -82,20 +83,6 @@ def test_a_crate_has_the_same_files(written):
     assert action["name"] == record["command"] and len(action["result"]) == len(files)
     assert action["instrument"]["version"] == record["commit"]
     assert action["endTime"] == record["time"]["last_end"]
-
-
-@pytest.mark.parametrize(
-    ("command", "published"),
-    [
-        ("snakemake --cores 2 reports/table_4_3.csv", None),
-        ("snakemake --config dragon=/home/me/a/x.ply up=z", "snakemake --config dragon=x.ply up=z"),
-        ("snakemake '--config dragon=/home/me/x.ply'", "snakemake '--config dragon=x.ply'"),
-        ("snakemake --configfile ../mine.yaml", None),
-        ("x=https://me:password@example.org/x.ply", "x=https://example.org/x.ply"),
-    ],
-)
-def test_a_command_names_no_folder_and_no_password(command, published):
-    assert without_folders(command) == (published or command)
 
 
 def test_packages_that_are_not_the_lock_s(tmp_path, monkeypatch):

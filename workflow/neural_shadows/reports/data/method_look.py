@@ -68,12 +68,12 @@ LOOKS = {
         "Traces rays through the triangles themselves, decimated or whole. No training.",
     ),
     "distances": Look(
-        "untrained grid",
+        "distance field",
         YELLOW,
         "X",
         "✕",
-        "The occupancy field's grid, filled with distances to the surface (or with their signs) "
-        "instead of trained.",
+        "The occupancy field's grid, not trained: filled with distances to the surface, with their signs, "
+        "or with distances fitted to its shadow boundaries.",
     ),
     "voxel_dag": Look(
         "voxels",

@@ -102,7 +102,7 @@ def curves_figure(table: pd.DataFrame, looks: Mapping[str, Look], *, title: str)
     shapes = {
         "a training": {"marker": "o", "markersize": 4},
         "power law of all but the largest budget": {"linestyle": "-"},
-        "its prediction there, 90 %": {"marker": "D", "markerfacecolor": "white"},
+        "its prediction there, drawn beside it, 90 %": {"marker": "D", "markerfacecolor": "white"},
         level_name: {"linestyle": ":"},
     }
     if table["thesis"].notna().any():
@@ -180,6 +180,8 @@ def _draw_prediction(axes: Axes, metric: str, row: pd.Series, **look: Any) -> No
     text = f"{row['method']}, predicted: {metrics()[metric].heading} {text} [{low}, {high}]"
     # The ends of a complement's error swap.
     point_with_interval(axes, row["samples"], value, sorted(ends), text, **look)
+    # What has a transform of its own does not widen the limits: bars were cut at the frame.
+    axes.update_datalim([(row["samples"], end) for end in ends if np.isfinite(end)])
 
 
 def _height(metric: str, values: float | np.ndarray) -> float | np.ndarray:

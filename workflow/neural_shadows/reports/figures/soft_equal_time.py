@@ -19,6 +19,7 @@ from neural_shadows.reports.tables import soft_methods
 from neural_shadows.sections.table_figures import RadiiFigure
 
 NUMBERS = ("number", "radius", "ms", *ERROR_COLUMNS)
+NULLS = ("no_shadow", "all_dark")
 
 
 class Settings(RadiiFigure):
@@ -55,41 +56,41 @@ def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str
     from matplotlib.lines import Line2D
 
     table, name = with_shown_errors(table[table["number"].isin(radii)])
+    table[["error", "error_low", "error_high"]] *= 1e4  # as in the tables
     looks = dict.fromkeys(map(look_of, table.dropna(subset="ms")["method"]))
     entries = [
         Line2D([], [], label=look.name, color=look.colour, marker=look.marker, linestyle="")
         for look in looks
     ]
-    height = 4.2 + 0.22 * ceil(len(entries) / len(radii))  # a name is half a panel wide
+    height = 5.0 + 0.22 * ceil(len(entries) / len(radii))  # a name is half a panel wide
     figure = style.new_figure(title, 5.2 * len(radii), height)
     style.legend_below(figure, entries, len(radii))
     panels = figure.subplots(1, len(radii), sharex=True, sharey=True, squeeze=False)[0]
     panel_rows = []
     for axes, number in zip(panels, radii):
-        rows = table[(table["number"] == number) & (table["method"] != "all_dark")]
-        methods = rows.dropna(subset="ms")
+        rows = table[table["number"] == number]
+        methods = rows[~rows["method"].isin(NULLS)].dropna(subset="ms")
         for row in methods.itertuples():
             look = look_of(row.method)
             ends = row.error_low, row.error_high
-            interval = "" if isnan(ends[0]) else f" [{1e4 * ends[0]:.1f}, {1e4 * ends[1]:.1f}]"
-            error = f"{1e4 * row.error:.1f}{interval}"  # of a single frame without one
+            interval = "" if isnan(ends[0]) else f" [{ends[0]:.1f}, {ends[1]:.1f}]"
+            error = f"{row.error:.1f}{interval}"  # of a single frame without one
             text = f"{row.label}: {name} {error} × 10⁻⁴; {row.ms:.1f} ms"
             drawn = {"color": look.colour, "marker": look.marker}
             point_with_interval(axes, row.ms, row.error, ends, text, **drawn)
         for look in (look for look in looks if look.joined):
             joined = methods[methods["method"].map(look_of) == look].sort_values("ms")
             axes.plot(joined["ms"], joined["error"], color=look.colour, linewidth=0.8, zorder=0)
-        for row in rows[rows["method"] == "no_shadow"].itertuples():
-            axes.axhline(row.error, color="#777777", linewidth=0.7, linestyle=":", zorder=0)
-            look = {"transform": axes.get_yaxis_transform(), "ha": "right", "va": "bottom"}
-            axes.text(0.99, row.error, row.label, fontsize=7, **look)
+        # A line ten times above all methods would take half the height from their names.
+        null = rows["error"][rows["method"] == "no_shadow"]
+        lit = f" (no shadow: {null.iloc[0]:,.0f})" if len(null) else ""
         axes.set(xscale="log", yscale="log", xlabel="ms a frame, one thread")
         radius, unit = rows["radius"].iloc[0], rows["unit"].iloc[0]
-        axes.set_title(light_name(radius, unit), fontsize=11)
+        axes.set_title(light_name(radius, unit) + lit, fontsize=11)
         axes.grid(**style.GRID)
         for axis in (axes.xaxis, axes.yaxis):
             style.plain_numbers(axis)
         panel_rows.append((axes, methods[["ms", "error", "label"]]))
-    panels[0].set_ylabel(f"{name} of visibility,\nlower is better (bars: 95 % intervals)")
+    panels[0].set_ylabel(f"{name} of visibility, × 10⁻⁴,\nlower is better (bars: 95 % intervals)")
     style.label_panels(panel_rows, 7)
     return figure

@@ -1,7 +1,7 @@
 """Hard frames side by side: pictures by two methods under a divider."""
 
 from collections import Counter
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +15,7 @@ from neural_shadows.reports.data import chosen_views
 from neural_shadows.reports.data.frame_errors import error_layer
 from neural_shadows.reports.data.frames import Frame, read_frames
 from neural_shadows.reports.data.inputs import by_folder
-from neural_shadows.reports.data.method_look import LOOKS, REFERENCE, look_of
+from neural_shadows.reports.data.method_look import LOOKS, REFERENCE, kind_of, look_of
 from neural_shadows.reports.page.blocks import lossless_uri, lossy_uri
 from neural_shadows.settings.records import Row
 
@@ -54,8 +54,6 @@ def hard_comparisons(
             key: f"{look_of(row).symbol} {row['label']}{f' ({key})' * (counts[row['label']] > 1)}"
             for key, row in methods.items()
         }
-        # The trained network of least error first, or else the method.
-        trained = [key for key, row in methods.items() if row["trained"]]
         shared, names = _shared_methods(frames), {REFERENCE: REFERENCE_NAME, **names}
         comparisons.append(
             {
@@ -64,7 +62,7 @@ def hard_comparisons(
                 "rule": chosen_views.RULE,
                 "soft": False,
                 "methods": [{"key": key, "name": names.get(key, key)} for key in shared],
-                "left": _errs_least(frames, trained),
+                "left": _first_shown(frames, methods),
                 "right": REFERENCE,
                 "views": [_view(frame, shared) for frame in frames],
             }
@@ -77,11 +75,16 @@ def _shared_methods(frames: Sequence[Frame]) -> list[str]:
     return [key for key in frames[0].images if all(key in frame.images for frame in frames)]
 
 
-def _errs_least(frames: Sequence[Frame], networks: Collection[str]) -> str:
-    """The network of least FLIP in the frames, or else the method."""
+def _first_shown(frames: Sequence[Frame], rows: Mapping[str, Row]) -> str:
+    """The thesis's network, else another trained one, else the method; of several that of least FLIP.
 
-    def rank(method: str) -> tuple[bool, float]:
-        return method not in networks, sum(frame.scores[method]["flip"] for frame in frames)
+    The best method of all may look like the reference, and the divider would show nothing.
+    """
+
+    def rank(method: str) -> tuple[bool, bool, float]:
+        row = rows.get(method)
+        thesis, trained = row and kind_of(row) == "frequency", row and row["trained"]
+        return not thesis, not trained, sum(frame.scores[method]["flip"] for frame in frames)
 
     methods = [method for method in _shared_methods(frames) if method != REFERENCE]
     return min(methods, key=rank, default=REFERENCE)

@@ -11,6 +11,7 @@ from typing import Any
 
 from neural_shadows.files.whole_files import sha256_of, write_json
 from neural_shadows.reports.data.inputs import by_folder, read_by_folder, read_seconds
+from neural_shadows.reports.data.run_command import run_command
 from neural_shadows.reports.runs.crate import write_crate
 from neural_shadows.running.module_graph import PACKAGE, digest
 from neural_shadows.running.origin import CHECKOUT, describe_origin
@@ -18,7 +19,6 @@ from neural_shadows.running.provenance import describe_hardware, read_log_line
 from neural_shadows.running.stage import run_stage
 from neural_shadows.settings.records import Run
 
-COMMAND = "NEURAL_SHADOWS_COMMAND"  # set by the rules
 LOCK = CHECKOUT / "envs" / "requirements.txt"
 HASHES = CHECKOUT / "envs" / "hashes.txt"
 
@@ -53,7 +53,7 @@ def write_manifest(
     paths = sorted({*map(str, reports), *on_request})
     origin = describe_origin()
     record = {
-        "command": without_folders(os.environ.get(COMMAND, "")),
+        "command": run_command(),
         "scale": run["scale"],
         "seed": run["seed"],
         "commit": origin["commit"],
@@ -82,12 +82,6 @@ def write_manifest(
     }
     write_json(manifest_json, record)
     write_crate(crate_json, record)
-
-
-def without_folders(command: str) -> str:
-    """A command without folders and passwords: results are published."""
-    command = re.sub(r"//[^/\s@]+@", "//", command)
-    return re.sub(r"(?<![\w.:/])/(?:[^\s/'\"]+/)+", "", command)
 
 
 def unlike_lock() -> dict[str, str]:
