@@ -12,6 +12,12 @@ from soft_pictures import write_soft_pictures
 from neural_shadows.reports.data.frame_errors import coloured
 from neural_shadows.reports.data.soft_pictures import read_pictures
 
+LIGHT, DARK = "rgb(255, 255, 255)", "rgb(20, 23, 26)"
+
+
+def paper(page):
+    return page.evaluate("getComputedStyle(document.body).backgroundColor")
+
 
 @pytest.fixture(scope="module")
 def address(tmp_path_factory):
@@ -152,8 +158,9 @@ def test_contents_follow_the_reading(open_page):
 
 
 def test_without_script_nothing_that_is_read_is_missing(browser, address):
-    page = browser.new_context(java_script_enabled=False).new_page()
+    page = browser.new_context(java_script_enabled=False, color_scheme="dark").new_page()
     page.goto(address)
+    assert paper(page) == DARK
     assert page.locator(".card:visible").count() == 2 and page.locator(".filter").is_hidden()
     assert page.locator(".poster img").is_visible()
     assert page.get_by_role("link", name="Drag the light").get_attribute("href") == "viewer.html"
@@ -318,17 +325,14 @@ def test_page_never_scrolls_sideways(open_page, width):
 
 
 def test_light_dark_and_print(open_page):
-    def paper(page):
-        return page.evaluate("getComputedStyle(document.body).backgroundColor")
-
     light, dark = open_page(), open_page(scheme="dark")
-    assert paper(light) == "rgb(255, 255, 255)"
-    assert paper(dark) == "rgb(20, 23, 26)"
+    assert paper(light) == LIGHT
+    assert paper(dark) == DARK
     light.locator("#theme").click()
-    assert paper(light) == "rgb(20, 23, 26)"
+    assert paper(light) == DARK
     # Print leaves out what paper cannot do.
     dark.emulate_media(media="print")
     assert dark.locator(".controls").is_hidden()
     assert dark.locator(".stage").is_visible()
-    assert paper(dark) == "rgb(255, 255, 255)"
+    assert paper(dark) == LIGHT
     assert dark.pdf(format="A4").startswith(b"%PDF")
