@@ -2,7 +2,8 @@
 
 A table names its CSVs in a comment before it: `<!-- numbers: FILE.csv -->`. The numbers of each of its
 rows, without the first cell, must be those of one method in these files, whatever their columns; with
-`<!-- numbers by column: … -->` those of each column; with `of 2: ` before the files, of two methods.
+`<!-- numbers by column: … -->` those of each column; with `of 2: ` before the files, of two methods. Such a comment behind a sentence or
+several, in their paragraph or list item, is on the numbers since the last.
 
 A table with `<!-- verdicts: FILE.csv … -->` counts the claims of each text that need a run, by verdict: of a
 claim in several files, by that in the last.
@@ -19,6 +20,10 @@ from neural_shadows.reports.data import verdicts
 from neural_shadows.reports.page.claim_cards import SOURCES
 
 MARK = re.compile(r"<!-- numbers( by column)?:(?: of (\d):)? ([^>]+\.csv) -->\n\n?((?:\|.*\n)+)")
+SAID = re.compile(r"<!-- numbers:(?: of (\d+):)? ([^>]+\.csv) -->")
+NO_PROSE = re.compile(
+    r"<!--(?! numbers:).*?-->|\]\([^)]*\)", re.S
+)  # other comments, targets of links
 COUNTED = re.compile(r"<!-- verdicts: ([^>]+\.csv) -->\n\n?((?:\|.*\n)+)")
 # What a column of such a table counts, by its heading.
 COUNTS = {
@@ -35,17 +40,36 @@ UNITS = (1, 1e2, 1e4, 1 / 1024, 1 / 1024**2, 1e-6)
 
 
 def mistakes(text: str, folder: Path) -> list[str]:
-    """Lines of marked tables whose numbers no method has, one message each."""
+    """Lines of marked tables, and marked sentences, whose numbers no method has, one message each."""
     found = []
     for by_column, count, names, table in MARK.findall(text):
-        methods = _methods(folder / name for name in names.split())
         for line in _lines(table, bool(by_column)):
-            tokens = [number for cell in line[1:] for number in NUMBER.findall(cell)]
-            of_each = [{t for t in tokens if _has(method, t)} for method in methods]
-            sets = combinations([own for own in of_each if own], int(count or 1))
-            if tokens and not any(set().union(*own) >= {*tokens} for own in sets):
-                found.append(f"{names}: no method has all numbers of {' | '.join(line)}")
+            found += _unknown(line[1:], " | ".join(line), count, names, folder)
+    for words, count, names in said(text):
+        found += _unknown([words], words, count, names, folder)
     return found
+
+
+def said(text: str) -> Iterator[tuple[str, str, str]]:
+    """Marked prose, the number of its methods and its files."""
+    for block in re.split(r"\n\s*\n|\n(?=- |#|\|)", NO_PROSE.sub("", text)):
+        start = 0
+        for mark in SAID.finditer(block):
+            if words := " ".join(block[start : mark.start()].split()):
+                yield words, mark[1], mark[2]
+            start = mark.end()
+
+
+def _unknown(
+    cells: Iterable[str], shown: str, count: str, names: str, folder: Path
+) -> Iterator[str]:
+    """A message where `count` methods of files have not all numbers of the cells."""
+    tokens = [number for cell in cells for number in NUMBER.findall(cell)]
+    methods = _methods(folder / name for name in names.split())
+    of_each = [{t for t in tokens if _has(method, t)} for method in methods]
+    sets = combinations([own for own in of_each if own], int(count or 1))
+    if tokens and not any(set().union(*own) >= {*tokens} for own in sets):
+        yield f"{names}: no method has all numbers of {shown}"
 
 
 def miscounts(text: str, folder: Path) -> list[str]:
