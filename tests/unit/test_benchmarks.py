@@ -1,12 +1,15 @@
 """What the benchmarks print is right; how fast anything is they measure and no test asserts."""
 
+import importlib.util
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 import run
+import start_share
 from measurement import COLUMNS, Row, median_seconds, table
 
 
@@ -20,6 +23,14 @@ def test_the_readme_s_command_finds_its_modules():
     command = [sys.executable, run.__file__, "--help"]
     usage = subprocess.check_output(command, text=True, env=environment)
     assert "--quick" in usage
+
+
+def test_each_rule_has_a_script_whose_start_is_measured():
+    rules = (Path(start_share.ROOT) / "workflow/rules").glob("*.smk")
+    named = re.findall(r"^rule (\w+):", "".join(path.read_text() for path in rules), re.M)
+    scripts = start_share.modules()
+    assert len(named) > 20 and {*scripts} == {*named}
+    assert all(importlib.util.find_spec(module) for module in scripts.values())
 
 
 def test_shares_and_ratios():
