@@ -68,7 +68,8 @@ def make_page(folder: Path, **changes) -> Path:
     """Write a page with one of each part, or with those that `changes` leave, and give its path."""
     tables = [folder / f"{name}.json" for name in ("table_4_3", "tables", "beyond", "claims")]
     for path in tables:
-        write_table(table(), path.with_suffix(".csv"), path.with_suffix(".md"), path)
+        named = replace(table(), title=f"{table().title}, {path.stem}")  # each its own
+        write_table(named, path.with_suffix(".csv"), path.with_suffix(".md"), path)
         path.with_suffix(".csv").write_text(CLAIMS if path.stem == "claims" else "method,a\nb,1\n")
     figure = folder / "figure_4_1.png"
     Image.new("RGB", (9, 9)).save(figure)
