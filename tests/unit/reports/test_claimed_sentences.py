@@ -6,6 +6,7 @@ from claimed_sentences import mistakes, read_claims, sentences
 from shipped import shipped
 
 REFERENCE = ROOT / "reports" / "reference"
+TEXTS = ["README.md", *(str(path.relative_to(ROOT)) for path in REFERENCE.glob("**/README.md"))]
 VERDICTS = {
     "ahead": {"supported"},
     "calmer": {"contradicted"},
@@ -69,14 +70,14 @@ def test_elsewhere_a_sentence_on_soft_shadows_has_a_claim_too():
     assert "PCSS 175, less" in found
 
 
-@pytest.mark.parametrize("name", ["README.md", "reports/reference/README.md"])
+@pytest.mark.parametrize("name", TEXTS)
 def test_our_sentences_say_what_their_claims_say(name):
     text = (ROOT / name).read_text(encoding="utf-8")
     assert mistakes(text, read_claims(REFERENCE.glob("*/claims.csv"))) == []
     assert any(in_part for _, _, in_part in sentences(text)) or name == "README.md"
 
 
-@pytest.mark.parametrize("name", ["README.md", "reports/reference/README.md"])
+@pytest.mark.parametrize("name", TEXTS)
 def test_claims_that_our_sentences_name_are_those_that_are_judged_today(name):
     """A claim whose rivals have changed since has another statement, and its verdict is of the former."""
     judged = read_claims(REFERENCE.glob("*/claims.csv"), "statement")
