@@ -2,7 +2,7 @@
 
 A table names its CSVs in a comment before it: `<!-- numbers: FILE.csv -->`. The numbers of each of its
 rows, without the first cell, must be those of one method in these files, whatever their columns; with
-`<!-- numbers by column: … -->` those of each column; with `of 2: ` before the files, of two methods. Such a comment behind a sentence or
+`<!-- numbers by column: … -->` those of each column; with `of N: ` before the files, of N methods. Such a comment behind a sentence or
 several, in their paragraph or list item, is on the numbers since the last.
 
 A table with `<!-- verdicts: FILE.csv … -->` counts the claims of each text that need a run, by verdict: of a
@@ -20,7 +20,8 @@ from neural_shadows.reports.data import verdicts
 from neural_shadows.reports.page.claim_cards import SOURCES
 
 MARK = re.compile(r"<!-- numbers( by column)?:(?: of (\d):)? ([^>]+\.csv) -->\n\n?((?:\|.*\n)+)")
-SAID = re.compile(r"<!-- numbers:(?: of (\d+):)? ([^>]+\.csv) -->")
+SAID = re.compile(r"<!-- numbers:(?: of (\d):)? ([^>]+\.csv) -->")
+ITEMS = r"\n\s*\n|\n(?=\s*(?:-|\d+\.) |#|\|)"  # paragraphs, list items and headings begin so
 NO_PROSE = re.compile(
     r"<!--(?! numbers:).*?-->|\]\([^)]*\)", re.S
 )  # other comments, targets of links
@@ -52,7 +53,7 @@ def mistakes(text: str, folder: Path) -> list[str]:
 
 def said(text: str) -> Iterator[tuple[str, str, str]]:
     """Marked prose, the number of its methods and its files."""
-    for block in re.split(r"\n\s*\n|\n(?=- |#|\|)", NO_PROSE.sub("", text)):
+    for block in re.split(ITEMS, NO_PROSE.sub("", MARK.sub("\n", text))):
         start = 0
         for mark in SAID.finditer(block):
             if words := " ".join(block[start : mark.start()].split()):

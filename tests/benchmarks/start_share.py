@@ -1,10 +1,12 @@
-"""What share of a run's processor time its processes take to start.
+"""What share of a run's time its processes take to start.
 
-    python tests/benchmarks/start_share.py [results/benchmarks]
+    python tests/benchmarks/start_share.py [results]
 
-Each job is a process, which first imports what its rule's script imports. This imports each script three
-times, multiplies the median by the number of its jobs, and divides by the time of all jobs, from their
-benchmarks. A dry run of everything, Snakemake's own start and plan, is added to both.
+Each job is a process, which first imports what its rule's script imports at its head. This imports each
+script three times, and multiplies the median of their processor time by the number of the rule's logs. A
+rule's time is that of its benchmarks; one without benchmarks does little but start, and all of it counts as
+start. A dry run of the default targets, as Snakemake plans them, is added to both. What functions import
+when they are called is not counted, and a benchmark of a machine that did other work is too long.
 """
 
 import argparse
@@ -20,9 +22,10 @@ import pandas as pd
 
 ROOT = Path(__file__).parents[2]
 ROUNDS = 3
-KIND = "{params.kind}"  # one of several scripts: the one that imports most
-LARGEST = {"preview_scene": "preview", "viewer": "write_soft_viewer", "train": "train_on_frames"}
 RULE = re.compile(r'^rule (\w+):\n(?:(?: .*)?\n)*? +script:\n +"\.\./([^"]+)\.py"', re.M)
+KIND = "{params.kind}"  # one of several scripts
+# Of those the one that imports most.
+LARGEST = {"preview_scene": "preview", "viewer": "write_soft_viewer", "train": "train_on_frames"}
 
 
 def modules() -> dict[str, str]:
@@ -44,22 +47,24 @@ def processor_seconds(command: Sequence[str]) -> float:
     return statistics.median(spent)
 
 
-def share_table(benchmarks: Path) -> pd.DataFrame:
+def share_table(results: Path) -> pd.DataFrame:
     """Jobs, seconds of all and of their starts by rule, Snakemake's plan, and the sum of all."""
     scripts, rows = modules(), []
-    for folder in sorted(benchmarks.iterdir()):
-        jobs = [pd.read_csv(path, sep="\t")["cpu_time"].sum() for path in folder.glob("*.tsv")]
+    for folder in sorted((results / "logs").iterdir()):
+        jobs = len([*folder.glob("*.log")])
         code = f"import sys; sys.path.insert(0, 'workflow'); import {scripts[folder.name]}"
-        start = processor_seconds([sys.executable, "-c", code])
-        rows.append([folder.name, len(jobs), sum(jobs), len(jobs) * start])
+        start = jobs * processor_seconds([sys.executable, "-c", code])
+        benchmarks = [*(results / "benchmarks" / folder.name).glob("*.tsv")]
+        seconds = sum(pd.read_csv(path, sep="\t")["s"].sum() for path in benchmarks) or start
+        rows.append([folder.name, jobs, seconds, start])
     plan = processor_seconds([sys.executable, "-m", "snakemake", "--dry-run", "--quiet"])
     rows.append(["Snakemake", 1, plan, plan])
-    table = pd.DataFrame(rows, columns=["rule", "jobs", "cpu_s", "start_s"]).set_index("rule")
+    table = pd.DataFrame(rows, columns=["rule", "jobs", "seconds", "start"]).set_index("rule")
     table.loc["all"] = table.sum()
-    return table.assign(share=table["start_s"] / table["cpu_s"]).sort_values("start_s")
+    return table.assign(share=table["start"] / table["seconds"]).sort_values("start")
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("benchmarks", type=Path, nargs="?", default=Path("results/benchmarks"))
-    print(share_table(parser.parse_args().benchmarks).to_string(float_format="{:,.3g}".format))
+    parser.add_argument("results", type=Path, nargs="?", default=Path("results"))
+    print(share_table(parser.parse_args().results).to_string(float_format="{:,.3g}".format))

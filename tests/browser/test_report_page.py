@@ -335,4 +335,6 @@ def test_light_dark_and_print(open_page):
     assert dark.locator(".controls").is_hidden()
     assert dark.locator(".stage").is_visible()
     assert paper(dark) == LIGHT
+    link = "getComputedStyle(document.querySelector('main a')).color"
+    assert dark.evaluate(link) == open_page().evaluate(link)
     assert dark.pdf(format="A4").startswith(b"%PDF")

@@ -26,7 +26,7 @@ def test_the_readme_s_command_finds_its_modules():
 
 
 def test_each_rule_has_a_script_whose_start_is_measured():
-    rules = (Path(start_share.ROOT) / "workflow/rules").glob("*.smk")
+    rules = (start_share.ROOT / "workflow/rules").glob("*.smk")
     named = re.findall(r"^rule (\w+):", "".join(path.read_text() for path in rules), re.M)
     scripts = start_share.modules()
     assert len(named) > 20 and {*scripts} == {*named}

@@ -16,7 +16,7 @@ def test_methods_of_a_kind_look_alike_and_kinds_do_not():
     assert name_of("shadow_map_pcf_16bit_512") == "16-bit shadow map"
     assert name_of("dragon_64_biased") == "thesis's network"
     assert name_of("dragon_field", encoding="occupancy_field") == "occupancy field"
-    assert name_of("near", encoding="occupancy_field", trained=False) == "distance field"
+    assert name_of("near", encoding="occupancy_field", trained=False) == "grid without training"
     assert name_of("no_shadow") == name_of("all_dark") == "no method"
     assert name_of("ray_traced") == "exact shadow"
     assert name_of("mine", encoding="my_network") == "my network"  # a kind of the user's own

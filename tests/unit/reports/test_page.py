@@ -6,6 +6,7 @@ import pytest
 from report_page import HOSTILE, LABELS, SHARED, make_page, table
 from soft_pictures import write_soft_pictures
 
+from neural_shadows.reports.data import run_command
 from neural_shadows.reports.data.table import write_table
 
 
@@ -136,3 +137,11 @@ def test_soft_shadows_are_compared_and_led_to_from_their_tables(tmp_path):
     assert 'href="#compare-soft-rivals"' in section
     # Hard shadows have a FLIP map, soft ones errors by their size.
     assert text.count("FLIP map</option>") == text.count("visibility alone</option>") == 1
+
+
+def test_the_command_of_the_run(tmp_path, monkeypatch):
+    monkeypatch.setenv(run_command.VARIABLE, "snakemake --config 'dragon=<b>.ply'")
+    text = make_page(tmp_path).read_text(encoding="utf-8")
+    assert "<code>snakemake --config &#39;dragon=&lt;b&gt;.ply&#39;</code>" in text
+    monkeypatch.delenv(run_command.VARIABLE)
+    assert "The last of its run" not in make_page(tmp_path).read_text(encoding="utf-8")

@@ -2,12 +2,15 @@
 
 // Light or dark: as the system has it, until the reader chooses.
 const theme = document.getElementById("theme");
-function setTheme(dark) {
-  document.documentElement.dataset.theme = dark ? "dark" : "light";
-  theme.setAttribute("aria-pressed", String(dark));
-}
-setTheme(matchMedia("(prefers-color-scheme: dark)").matches);
-theme.addEventListener("click", () => setTheme(theme.getAttribute("aria-pressed") !== "true"));
+const system = matchMedia("(prefers-color-scheme: dark)");
+const isDark = () => (document.documentElement.dataset.theme ?? (system.matches ? "dark" : "light")) === "dark";
+const press = () => theme.setAttribute("aria-pressed", String(isDark()));
+press();
+system.addEventListener("change", press);
+theme.addEventListener("click", () => {
+  document.documentElement.dataset.theme = isDark() ? "light" : "dark";
+  press();
+});
 
 // The contents follow the reading: the last heading that has passed a line below the top.
 const links = [...document.querySelectorAll("nav li > a")];

@@ -134,3 +134,6 @@ def test_the_legend_is_as_wide_as_the_figure_and_names_what_is_drawn(radii, name
     extent = figure.legends[0].get_window_extent()
     assert extent.x0 >= 0 and extent.x1 <= figure.bbox.x1
     assert len(figure.legends[0].get_texts()) == named
+    drawn = figure.axes[0].containers[0].lines[0].get_ydata()[0]  # of `hard`, in the tables' unit
+    assert drawn == pytest.approx(1000) and "10⁻⁴" in figure.axes[0].get_ylabel()
+    assert figure.axes[0].get_title().endswith("(no shadow: 143)")

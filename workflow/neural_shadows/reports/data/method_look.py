@@ -68,12 +68,12 @@ LOOKS = {
         "Traces rays through the triangles themselves, decimated or whole. No training.",
     ),
     "distances": Look(
-        "distance field",
+        "grid without training",
         YELLOW,
         "X",
         "✕",
-        "The occupancy field's grid, not trained: filled with distances to the surface, with their signs, "
-        "or with distances fitted to its shadow boundaries.",
+        "The occupancy field's grid, filled without training: with distances to the surface, with "
+        "distances fitted so that shadows end in the right place, or only with whether a point is inside.",
     ),
     "voxel_dag": Look(
         "voxels",

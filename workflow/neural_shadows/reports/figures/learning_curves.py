@@ -102,7 +102,10 @@ def curves_figure(table: pd.DataFrame, looks: Mapping[str, Look], *, title: str)
     shapes = {
         "a training": {"marker": "o", "markersize": 4},
         "power law of all but the largest budget": {"linestyle": "-"},
-        "its prediction there, drawn beside it, 90 %": {"marker": "D", "markerfacecolor": "white"},
+        "that law's prediction of the largest budget, drawn to its right, 90 %": {
+            "marker": "D",
+            "markerfacecolor": "white",
+        },
         level_name: {"linestyle": ":"},
     }
     if table["thesis"].notna().any():

@@ -8,6 +8,7 @@ from typing import Literal
 import pandas as pd
 from pydantic import Field
 
+from neural_shadows.evaluation.null_predictors import NO_SHADOW
 from neural_shadows.evaluation.registry import look_of
 from neural_shadows.reports.data.frame_means import ERROR_COLUMNS, with_shown_errors
 from neural_shadows.reports.data.lights import light_name
@@ -19,7 +20,6 @@ from neural_shadows.reports.tables import soft_methods
 from neural_shadows.sections.table_figures import RadiiFigure
 
 NUMBERS = ("number", "radius", "ms", *ERROR_COLUMNS)
-NULLS = ("no_shadow", "all_dark")
 
 
 class Settings(RadiiFigure):
@@ -69,7 +69,7 @@ def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str
     panel_rows = []
     for axes, number in zip(panels, radii):
         rows = table[table["number"] == number]
-        methods = rows[~rows["method"].isin(NULLS)].dropna(subset="ms")
+        methods = rows.dropna(subset="ms")  # null predictors have none
         for row in methods.itertuples():
             look = look_of(row.method)
             ends = row.error_low, row.error_high
@@ -82,11 +82,11 @@ def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str
             joined = methods[methods["method"].map(look_of) == look].sort_values("ms")
             axes.plot(joined["ms"], joined["error"], color=look.colour, linewidth=0.8, zorder=0)
         # A line ten times above all methods would take half the height from their names.
-        null = rows["error"][rows["method"] == "no_shadow"]
-        lit = f" (no shadow: {null.iloc[0]:,.0f})" if len(null) else ""
+        null = rows["error"][rows["method"] == NO_SHADOW]
+        far = f" (no shadow: {null.iloc[0]:,.0f})" if len(null) else ""
         axes.set(xscale="log", yscale="log", xlabel="ms a frame, one thread")
         radius, unit = rows["radius"].iloc[0], rows["unit"].iloc[0]
-        axes.set_title(light_name(radius, unit) + lit, fontsize=11)
+        axes.set_title(light_name(radius, unit) + far, fontsize=11)
         axes.grid(**style.GRID)
         for axis in (axes.xaxis, axes.yaxis):
             style.plain_numbers(axis)

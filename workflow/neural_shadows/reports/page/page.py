@@ -16,6 +16,7 @@ from neural_shadows.files.whole_files import write_text
 from neural_shadows.reports.data.inputs import read_by_folder
 from neural_shadows.reports.data.method_look import look_of_kind
 from neural_shadows.reports.data.phrases import describe_mesh
+from neural_shadows.reports.data.run_command import run_command
 from neural_shadows.reports.page.blocks import lossy_uri
 from neural_shadows.reports.page.chapters import chapters as page_chapters
 from neural_shadows.reports.page.claim_cards import budget, by_source, counted, read_cards
@@ -122,6 +123,7 @@ def write_page(
         script=Markup("\n".join(scripts)),
         sentence=run_sentence(run, scenes, facts),
         facts=facts,
+        command=run_command(),
         folded=folded,
         claims=claims,
         findings=findings(questions, cards, figures, titles),

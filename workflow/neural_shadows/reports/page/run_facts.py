@@ -7,7 +7,6 @@ from platform import python_version
 
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports.data.inputs import by_folder, read_seconds
-from neural_shadows.reports.data.run_command import run_command
 from neural_shadows.running.origin import CHECKOUT, commit_of
 from neural_shadows.running.provenance import describe_hardware
 from neural_shadows.settings.records import Run, SceneInfo, TrainingRecord
@@ -24,7 +23,7 @@ def run_facts(
 ) -> dict[str, str]:
     """Names and values of the facts, in the order to show them; `meshes`: a phrase on each."""
     records = [read_json(path) for path in trainings]
-    facts = {"command": run_command(), "scale": run["scale"]}
+    facts = {"scale": run["scale"]}
     facts |= {f"mesh of {scene}": text for scene, text in meshes.items()}
     facts["frames"] = f"{run['width']} × {run['height']}"
     if records:
