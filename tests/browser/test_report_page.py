@@ -162,6 +162,7 @@ def test_without_script_nothing_that_is_read_is_missing(browser, address):
     page.goto(address)
     assert paper(page) == DARK
     assert page.locator(".card:visible").count() == 2 and page.locator(".filter").is_hidden()
+    assert page.locator("#theme").is_hidden()
     assert page.locator(".poster img").is_visible()
     assert page.get_by_role("link", name="Drag the light").get_attribute("href") == "viewer.html"
 

@@ -144,4 +144,4 @@ def test_the_command_of_the_run(tmp_path, monkeypatch):
     text = make_page(tmp_path).read_text(encoding="utf-8")
     assert "<code>snakemake --config &#39;dragon=&lt;b&gt;.ply&#39;</code>" in text
     monkeypatch.delenv(run_command.VARIABLE)
-    assert "The last of its run" not in make_page(tmp_path).read_text(encoding="utf-8")
+    assert "The run's last command" not in make_page(tmp_path).read_text(encoding="utf-8")

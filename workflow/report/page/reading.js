@@ -6,6 +6,7 @@ const system = matchMedia("(prefers-color-scheme: dark)");
 const isDark = () => (document.documentElement.dataset.theme ?? (system.matches ? "dark" : "light")) === "dark";
 const press = () => theme.setAttribute("aria-pressed", String(isDark()));
 press();
+theme.hidden = false;
 system.addEventListener("change", press);
 theme.addEventListener("click", () => {
   document.documentElement.dataset.theme = isDark() ? "light" : "dark";

@@ -201,7 +201,7 @@ def decided(claim: Claim, comparisons: Sequence[Comparison], extrapolated: bool)
     supporting, opposing = sum(each.supports for each in comparisons), against(comparisons)
     if supporting < len(comparisons) and opposing:
         return f"against the claim{where}: {'; '.join(each.text for each in opposing)}"
-    rest = ", none is significantly against it" if supporting < len(comparisons) else ""
+    rest = ", none is against it by Holm's correction" if supporting < len(comparisons) else ""
     return f"{supporting} of {len(comparisons)} comparisons are in its favour{where}{rest}"
 
 
