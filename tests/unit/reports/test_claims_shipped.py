@@ -18,7 +18,8 @@ from neural_shadows.reports.claims.claim_kinds import kind_of, methods
 from neural_shadows.reports.claims.gates import judge
 from neural_shadows.reports.data.trained import THESIS_SAMPLES
 
-REFERENCE = ROOT / "reports" / "reference" / "desk"
+# Folders of the run in which each table is once.
+PARTS = ("spanhoff_2026", "extensions", "soft_shadows", "datta_2022", "hu_2025", "desk")
 
 
 def claims(*kinds):
@@ -100,7 +101,9 @@ def numbers_of(name):
     """A table by its settings or by a reference."""
     layout = of_all_seeds()
     table = layout.entry("tables", name)
-    path = REFERENCE / f"{name}.csv"
+    reference = ROOT / "reports" / "reference"
+    paths = [p for part in PARTS if (p := reference / part / f"{name}.csv").exists()]
+    path = paths[0] if paths else reference / f"{name}.csv"
     match table["kind"]:
         case "screen_steps":
             return pd.DataFrame({"row": [*table["steps"]]}).assign(

@@ -27,8 +27,9 @@ NOT_COMPARED = "not compared"
 VERDICTS = (SAME, WITHIN, DIFFERS, NOT_COMPARED)
 
 # Processors round differently. Of soft_methods.csv by one with AVX2 and one with AVX-512 98 % of the
-# numbers agree to this; the others are errors below 1e-4, and of Open Image Denoise.
-ROUNDING = 1e-3
+# numbers agree to 1e-3; the others are errors below 1e-4, and of Open Image Denoise. Of sun_hours.csv
+# the small differences of fields from rays differ by up to 2.4e-3.
+ROUNDING = 3e-3
 LARGEST = 10  # differences that are shown
 FEW = 5  # names that are shown
 
