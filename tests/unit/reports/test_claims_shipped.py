@@ -19,7 +19,7 @@ from neural_shadows.reports.claims.gates import judge
 from neural_shadows.reports.data.trained import THESIS_SAMPLES
 
 # Folders of the run in which each table is once.
-PARTS = ("spanhoff_2026", "extensions", "soft_shadows", "datta_2022", "hu_2025", "desk")
+PARTS = ("spanhoff_2026", "extensions", "soft_shadows", "datta_2022", "hu_2025")
 
 
 def claims(*kinds):
