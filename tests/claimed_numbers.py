@@ -108,7 +108,7 @@ def _methods(paths: Iterable[Path]) -> list[tuple[set[str], list[float]]]:
     for path in paths:
         for row in csv.DictReader(path.read_text(encoding="utf-8").splitlines()):
             labels = [row[key] for key in ("method", "label", "mesh") if key in row]
-            labels = labels or [next(iter(row.values()))]
+            labels = labels or [next(iter(row.values()))]  # a table of steps has no methods
             words, numbers = methods[labels[0]]
             words.update(word.strip(",²³") for label in labels for word in label.split())
             numbers += [float(cell) for cell in row.values() if _is_number(cell)]

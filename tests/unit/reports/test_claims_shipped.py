@@ -2,6 +2,7 @@
 
 import functools
 from itertools import product
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -102,8 +103,8 @@ def numbers_of(name):
     layout = of_all_seeds()
     table = layout.entry("tables", name)
     reference = ROOT / "reports" / "reference"
-    paths = [p for part in PARTS if (p := reference / part / f"{name}.csv").exists()]
-    path = paths[0] if paths else reference / f"{name}.csv"
+    paths = (reference / part / f"{name}.csv" for part in PARTS)
+    path = next(filter(Path.exists, paths), reference)
     match table["kind"]:
         case "screen_steps":
             return pd.DataFrame({"row": [*table["steps"]]}).assign(
@@ -112,7 +113,7 @@ def numbers_of(name):
         case "screen_temporal":
             columns = dict.fromkeys(pd.read_csv(path), 1.0) | {"null": np.nan}
             return pd.DataFrame(columns | {"label": with_taa(labels_of(name))})
-        case "screen_errors" if not path.exists():
+        case "screen_errors" if path == reference:
             frames = layout.entry("frame_sets", table["frame_set"])
             lights = [*range(len(frames["radii"])), "all"]
             rows = product(labels_of(name), frames["scenes"], lights)
