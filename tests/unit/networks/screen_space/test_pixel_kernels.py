@@ -7,12 +7,14 @@ import torch
 from torch.nn import functional
 from unfolded import by_unfold
 
+from neural_shadows.networks.screen_space.half_kernel_loops import HALF_BLOCK
 from neural_shadows.networks.screen_space.pixel_kernel_loops import BLOCK
 from neural_shadows.networks.screen_space.pixel_kernels import by_shifts, filtered
 
 SIZES = {
     **{"one pixel": (1, 1), "smaller than a kernel": (3, 5), "odd": (37, 35)},
     **{"a block and a pixel": (6, BLOCK + 1), "blocks": (3, 2 * BLOCK + 20)},
+    **{"a block of half the resolution and a pixel": (3, 2 * HALF_BLOCK + 1)},
 }
 
 
@@ -42,6 +44,18 @@ def test_values_and_gradients_are_those_of_unfold(work, factor, size):
     for array, other in zip(ours, theirs, strict=True):
         assert array.dtype == torch.float32
         assert torch.allclose(array.double(), other, rtol=0, atol=3e-6)
+
+
+@pytest.mark.parametrize("dtype", [torch.float32, torch.bfloat16])
+def test_rows_of_large_logits_among_others(dtype):
+    """Beyond ±40 the largest is subtracted: exp(100) is no float32."""
+    logits, base, gradient = drawn((40, 37), 2, dtype=dtype)
+    rows = logits.detach()[:, :, 7:12]
+    rows *= 60
+    assert rows.abs().max() > 200
+    ours = filtered(logits, base, 2)
+    theirs = by_unfold(logits.double(), base.double(), 2)
+    assert torch.allclose(ours.double(), theirs, rtol=0, atol=2e-5)  # of exp(x) for x = 200
 
 
 @pytest.mark.parametrize("factor", [1, 2])

@@ -7,8 +7,8 @@ from torch import Tensor, nn
 from torch.nn.utils.fusion import fuse_conv_bn_eval
 
 from neural_shadows.networks.screen_space.chunk_norm import ChunkNorm
+from neural_shadows.networks.screen_space.kernel_taps import TAPS
 from neural_shadows.networks.screen_space.layers import Sum
-from neural_shadows.networks.screen_space.pixel_kernel_loops import TAPS
 from neural_shadows.networks.screen_space.pixel_kernels import filtered
 from neural_shadows.networks.screen_space.widths import Convolution
 

@@ -1,36 +1,34 @@
 """Loops of the per-pixel kernel filter and of its gradients.
 
 A level's 25 logits of a block of pixels are copied into 25 rows for vector instructions; weights
-exist only there. Renormalised at borders, a softmax is one over the taps within the frame.
+exist only there. Renormalised at borders, a softmax is one over the taps within the frame. Rows of small
+logits of half the resolution take less time: see `half_kernel_loops`.
 """
 
 import numpy as np
 from numba import njit
-from numpy.polynomial import Chebyshev, Polynomial
 
-SIDE = 5  # taps along and down
-TAPS = SIDE**2
-BLOCK = 512  # pixels; even. 256 is a tenth slower, 128 more
-_NEAR, _FAR = np.float32(0.75), np.float32(0.25)  # weights of bilinear enlargement
-_LOG2_E = np.float32(np.log2(np.e))
-# Coefficients of 2^f, |f| ≤ 1/2, accurate to 1e-7.
-_P0, _P1, _P2, _P3, _P4, _P5 = np.float32(
-    Chebyshev.interpolate(np.exp2, 5, [-0.5, 0.5]).convert(kind=Polynomial).coef
+from neural_shadows.networks.screen_space import half_kernel_loops
+from neural_shadows.networks.screen_space.kernel_taps import (
+    FAR,
+    LOG2_E,
+    NEAR,
+    SIDE,
+    TAPS,
+    exp2,
+    half_columns,
+    half_rows,
 )
-_ROUNDS = np.float32(1.5 * 2**23)
+
+BLOCK = 512  # pixels; even. 256 is a tenth slower, 128 more
 _LEAST = np.float32(-1e30)
 
 
 @njit(cache=True, nogil=True, inline="always")
 def _exp(x):
-    """exp(x) for x ≤ 0: to 3e-7 at x = −10; numba's own is a function call."""
-    t = x * _LOG2_E
-    t = np.float32(-126) if t < np.float32(-126) else t  # NaN stays NaN
-    rounded = np.float32(t + _ROUNDS)  # its last bits are t rounded
-    f = t - (rounded - _ROUNDS)
-    p = ((((_P5 * f + _P4) * f + _P3) * f + _P2) * f + _P1) * f + _P0
-    power = np.int32(np.int32(rounded.view(np.int32) << 23) + np.int32(0x3F800000))
-    return p * power.view(np.float32)
+    """exp(x) for x ≤ 0; NaN stays NaN."""
+    t = x * LOG2_E
+    return exp2(np.float32(-126) if t < np.float32(-126) else t)
 
 
 @njit(cache=True, nogil=True)
@@ -57,10 +55,9 @@ def _tap_span(tap, y, left, right, step, height, width):
 @njit(cache=True, nogil=True)
 def _half_span(y, left, right, rows, columns):
     """Half-resolution rows (nearer, farther), columns [begin, end), number missing in front."""
-    near = y // 2
-    far = min(max(near + (1 if y % 2 else -1), 0), rows - 1)
-    low, high = left // 2 - 1, (right + 1) // 2 + 1
-    return near, far, max(low, 0), min(high, columns), int(low < 0)
+    near, far = half_rows(y, rows)
+    begin, end, missing = half_columns(left, right, columns)
+    return near, far, begin, end, missing
 
 
 @njit(cache=True, nogil=True, fastmath={"contract"})
@@ -82,13 +79,13 @@ def _load(bits, factor, y, left, right, half, planes):
         for i in range(len(near_row)):
             a = np.int32(np.int32(near_row[i]) << shift).view(np.float32)
             b = np.int32(np.int32(far_row[i]) << shift).view(np.float32)
-            inner[i] = _NEAR * a + _FAR * b
+            inner[i] = NEAR * a + FAR * b
         inner[end - begin] = inner[end - begin - 1]  # read only beyond the last
         if missing:
             half[0] = half[1]
         for j in range(pairs):
-            plane[2 * j] = _NEAR * half[j + 1] + _FAR * half[j]
-            plane[2 * j + 1] = _NEAR * half[j + 1] + _FAR * half[j + 2]
+            plane[2 * j] = NEAR * half[j + 1] + FAR * half[j]
+            plane[2 * j + 1] = NEAR * half[j + 1] + FAR * half[j + 2]
 
 
 @njit(cache=True, nogil=True, fastmath={"contract"})
@@ -107,23 +104,23 @@ def _add(planes, factor, y, left, right, half, to_logits):
         plane = planes[tap]
         for j in range(1, pairs - 1):
             pair = plane[2 * j] + plane[2 * j + 1]
-            half[j + 1] = _NEAR * pair + _FAR * (plane[2 * j - 1] + plane[2 * j + 2])
+            half[j + 1] = NEAR * pair + FAR * (plane[2 * j - 1] + plane[2 * j + 2])
         last = 2 * pairs - 1
-        half[0], half[pairs + 1] = _FAR * plane[0], _FAR * plane[last]
-        half[1] = _NEAR * (plane[0] + plane[1])
-        half[pairs] = _NEAR * (plane[last - 1] + plane[last])
+        half[0], half[pairs + 1] = FAR * plane[0], FAR * plane[last]
+        half[1] = NEAR * (plane[0] + plane[1])
+        half[pairs] = NEAR * (plane[last - 1] + plane[last])
         if pairs > 1:
-            half[1] += _FAR * plane[2]
-            half[pairs] += _FAR * plane[last - 2]
+            half[1] += FAR * plane[2]
+            half[pairs] += FAR * plane[last - 2]
         if missing:
             half[1] += half[0]
         if missing + end - begin < pairs + 2:
             half[pairs] += half[pairs + 1]
         near_row, far_row = to_logits[tap, near, begin:end], to_logits[tap, far, begin:end]
         for i in range(len(near_row)):
-            near_row[i] += _NEAR * inner[i]
+            near_row[i] += NEAR * inner[i]
         for i in range(len(far_row)):
-            far_row[i] += _FAR * inner[i]
+            far_row[i] += FAR * inner[i]
 
 
 @njit(cache=True, nogil=True, fastmath={"contract"})
@@ -178,30 +175,50 @@ def filter_rows(bits, factor, step, source, guide, limit, begin, end, result, fi
         first_row: row of the result at the beginning of `bits`. Not by default: a call without it
             would be compiled apart.
     """
-    height, width = source.shape
+    height = len(source)
     planes, half = np.empty((TAPS, BLOCK), np.float32), np.empty(BLOCK // 2 + 3, np.float32)
-    top, total, sums = _block_row(), _block_row(), _block_row()
+    rows = _block_row(), _block_row(), _block_row()
+    if factor == 2:
+        low, high = max(begin - 2 * step, 0), min(end + 2 * step, height)
+        values = half_kernel_loops.by_parity(source, low, high)
+        own = half_kernel_loops.by_parity(guide, low, high) if limit < np.inf else values
+        small, rooms = half_kernel_loops.are_small(bits), half_kernel_loops.scratch()
     for y in range(begin, end):
-        for left in range(0, width, BLOCK):
-            right = min(left + BLOCK, width)
-            _load(bits, factor, y - first_row, left, right, half, planes)
-            if limit < np.inf:
-                _gate(planes, guide, limit, y, left, right, step, height, width)
-            _find_top(planes, y, left, right, step, height, width, top)
-            total[:] = 0
-            sums[:] = 0
-            for tap in range(TAPS):
-                v, offset, first, last = _tap_span(tap, y, left, right, step, height, width)
-                logits, maxima = planes[tap, first:last], top[first:last]
-                weights, mean = total[first:last], sums[first:last]
-                values = source[v, left + offset + first : left + offset + last]
-                for i in range(last - first):
-                    weight = _exp(logits[i] - maxima[i])
-                    weights[i] += weight
-                    mean[i] += weight * values[i]
-            filtered = result[y, left:right]
-            for i in range(right - left):
-                filtered[i] = sums[i] / total[i]
+        row = y - first_row
+        if factor == 2:
+            near, far = half_rows(row, bits.shape[1])
+            if small[near] and small[far]:
+                half_kernel_loops.filter_row(
+                    bits, step, values, own, limit, y - low, row, result[y], rooms
+                )
+                continue
+        _filter_row(bits, factor, step, source, guide, limit, y, row, result[y], planes, half, rows)
+
+
+@njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")
+def _filter_row(bits, factor, step, source, guide, limit, y, row, result, planes, half, rows):
+    height, width = source.shape
+    top, total, sums = rows
+    for left in range(0, width, BLOCK):
+        right = min(left + BLOCK, width)
+        _load(bits, factor, row, left, right, half, planes)
+        if limit < np.inf:
+            _gate(planes, guide, limit, y, left, right, step, height, width)
+        _find_top(planes, y, left, right, step, height, width, top)
+        total[:] = 0
+        sums[:] = 0
+        for tap in range(TAPS):
+            v, offset, first, last = _tap_span(tap, y, left, right, step, height, width)
+            logits, maxima = planes[tap, first:last], top[first:last]
+            weights, mean = total[first:last], sums[first:last]
+            values = source[v, left + offset + first : left + offset + last]
+            for i in range(last - first):
+                weight = _exp(logits[i] - maxima[i])
+                weights[i] += weight
+                mean[i] += weight * values[i]
+        filtered = result[left:right]
+        for i in range(right - left):
+            filtered[i] = sums[i] / total[i]
 
 
 @njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")

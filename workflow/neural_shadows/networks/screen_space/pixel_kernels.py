@@ -9,12 +9,8 @@ import torch
 from torch import Tensor
 from torch.nn import functional
 
-from neural_shadows.networks.screen_space.pixel_kernel_loops import (
-    SIDE,
-    TAPS,
-    add_gradients,
-    filter_rows,
-)
+from neural_shadows.networks.screen_space.kernel_taps import SIDE, TAPS
+from neural_shadows.networks.screen_space.pixel_kernel_loops import add_gradients, filter_rows
 
 _BITS = {torch.float32: torch.int32, torch.bfloat16: torch.int16}
 

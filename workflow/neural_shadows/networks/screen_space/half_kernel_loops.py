@@ -1,0 +1,185 @@
+"""Loops of the per-pixel kernel filter by small logits of half the resolution: half the exponentials.
+
+Enlarged bilinearly, a pixel's logit is ¾ of that of one half-resolution column and ¼ of its
+neighbour's. So its weight is a product: the cubed fourth root of one exponential, and the fourth root
+of the other. Even and odd pixels are filtered apart: their values lie side by side for vector
+instructions. The four levels of 2048 × 1024 pixels take 43 ms of a core with AVX-512 instead of 62.
+"""
+
+import numpy as np
+from numba import njit
+
+from neural_shadows.networks.screen_space.kernel_taps import (
+    FAR,
+    LOG2_E,
+    NEAR,
+    SIDE,
+    TAPS,
+    exp2,
+    half_columns,
+    half_rows,
+)
+
+HALF_BLOCK = 1024  # half-resolution columns at once; 512 and 256 take a tenth and a half more
+# The largest magnitude of small logits, as bits: weights are within e^±40, and none is subtracted.
+_LARGEST = np.float32(40).view(np.int32)
+_MAGNITUDE = np.int32(0x7FFFFFFF)  # all bits but the sign
+_OF_NEAR, _OF_FAR = LOG2_E * NEAR / 4, LOG2_E * FAR / 4  # for the fourth root
+_FLOATS_OF_A_LINE = 16  # of the cache
+# Indices without a sign, of whole arrays. Numba makes room for negative ones, and counts references to
+# slices: both cost more here than the arithmetic.
+_index = np.uint64
+
+
+@njit(cache=True, nogil=True)
+def are_small(bits):
+    """Of each row of logits, whether all are numbers of so small a magnitude: (h,).
+
+    Args:
+        bits: (25, h, w), the bits of logits in float32 or bfloat16 as integers.
+    """
+    shift = np.int32(32 - 8 * bits.itemsize)  # bfloat16 is the upper half of float32
+    small = np.empty(bits.shape[1], np.bool_)
+    for y in range(bits.shape[1]):
+        largest = np.int32(0)
+        for tap in range(TAPS):
+            row = bits[tap, y]
+            for i in range(len(row)):
+                # Bits of magnitudes are ordered as these are, and those of NaN above all.
+                magnitude = np.int32(np.int32(row[i]) << shift) & _MAGNITUDE
+                largest = magnitude if magnitude > largest else largest
+        small[y] = largest <= _LARGEST
+    return small
+
+
+@njit(cache=True, nogil=True)
+def by_parity(picture, low, high):
+    """Rows low … high of a picture (H, W), even pixels and odd ones: (2, high − low, ⌈W / 2⌉)."""
+    width = picture.shape[1]
+    parities = np.empty((2, high - low, (width + 1) // 2), np.float32)
+    for y in range(high - low):
+        row, even, odd = picture[low + y], parities[0, y], parities[1, y]
+        for i in range(width // 2):
+            even[i], odd[i] = row[2 * i], row[2 * i + 1]
+        if width % 2:
+            even[width // 2] = row[width - 1]
+    return parities
+
+
+@njit(cache=True, nogil=True)
+def scratch():
+    """Rows of a block, at the beginning of lines of the cache.
+
+    Fourth roots, their cubes (HALF_BLOCK + 2,), and by parity sums of weights, of weighted values
+    (2, HALF_BLOCK).
+    """
+    roots, cubes = _lines(HALF_BLOCK + 2), _lines(HALF_BLOCK + 2)
+    sums = _lines(4 * HALF_BLOCK).reshape((2, 2, HALF_BLOCK))
+    return roots, cubes, sums[0], sums[1]
+
+
+@njit(cache=True, nogil=True)
+def _lines(length):
+    room = np.empty(length + _FLOATS_OF_A_LINE, np.float32)
+    begin = (-room.ctypes.data % (4 * _FLOATS_OF_A_LINE)) // 4
+    return room[begin : begin + length]
+
+
+@njit(cache=True, nogil=True, fastmath={"contract"})
+def _take_roots(bits, tap, rows, columns, roots, cubes):
+    """Fourth roots of a tap's weights, by half-resolution columns, and their cubes."""
+    shift = np.int32(32 - 8 * bits.itemsize)
+    begin, end, missing = columns
+    first, count, skip = _index(begin), _index(end - begin), _index(missing)
+    tap, near, far = _index(tap), _index(rows[0]), _index(rows[1])
+    for i in range(count):
+        a = np.int32(np.int32(bits[tap, near, first + i]) << shift).view(np.float32)
+        b = np.int32(np.int32(bits[tap, far, first + i]) << shift).view(np.float32)
+        root = exp2(_OF_NEAR * a + _OF_FAR * b)
+        roots[skip + i] = root
+        cubes[skip + i] = root * root * root
+    if missing:
+        roots[0] = roots[1]
+    roots[skip + count] = roots[skip + count - _index(1)]  # read only beyond the last
+
+
+@njit(cache=True, nogil=True, fastmath={"contract"})
+def _add_tap(roots, cubes, parity, span, values, there, weights, sums):
+    """Add a tap's weights and weighted values, of pixels `span` of a parity."""
+    first, count = _index(span[0]), _index(span[1])
+    near, far = first + _index(1), first + _index(2 * parity)
+    of, v, begin = _index(there[0]), _index(there[1]), _index(there[2])
+    parity = _index(parity)
+    for i in range(count):
+        weight = cubes[near + i] * roots[far + i]
+        weights[parity, first + i] += weight
+        sums[parity, first + i] += weight * values[of, v, begin + i]
+
+
+@njit(cache=True, nogil=True, fastmath={"contract"})
+def _add_gated_tap(roots, cubes, parity, span, values, there, weights, sums, gate, own):
+    """`_add_tap`, of pixels whose guide differs by no more than a limit from that at the tap."""
+    guide, limit = gate
+    first, count = _index(span[0]), _index(span[1])
+    near, far = first + _index(1), first + _index(2 * parity)
+    of, v, begin = _index(there[0]), _index(there[1]), _index(there[2])
+    parity, y, own_begin = _index(parity), _index(own[0]), _index(own[1])
+    for i in range(count):
+        step = abs(guide[of, v, begin + i] - guide[parity, y, own_begin + i])
+        weight = cubes[near + i] * roots[far + i] if step <= limit else np.float32(0)
+        weights[parity, first + i] += weight
+        sums[parity, first + i] += weight * values[of, v, begin + i]
+
+
+@njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")
+def filter_row(bits, step, values, guide, limit, y, row, result, rooms):
+    """Fill a row of a level's result, of which all logits are small.
+
+    Args:
+        bits: (25, h, w), the bits of logits in float32 or bfloat16 as integers.
+        step: pixels from tap to tap.
+        values: rows that the kernels of this one reach, by parity.
+        guide: likewise, and the limit to its differences within a kernel; ∞ for none.
+        y, row: the row's number in `values`, and in the enlarged `bits`.
+        result: (W,) float32.
+        rooms: of `scratch`.
+    """
+    roots, cubes, weights, sums = rooms
+    rows, width = half_rows(row, bits.shape[1]), len(result)
+    for left in range(0, width, 2 * HALF_BLOCK):
+        right = min(left + 2 * HALF_BLOCK, width)
+        columns = half_columns(left, right, bits.shape[2])
+        weights[:] = 0
+        sums[:] = 0
+        for tap in range(TAPS):
+            v = y + (tap // SIDE - SIDE // 2) * step
+            offset = (tap % SIDE - SIDE // 2) * step
+            if v < 0 or v >= values.shape[1]:
+                continue
+            _take_roots(bits, tap, rows, columns, roots, cubes)
+            for parity in range(2):
+                x = left + offset + parity  # of the tap of the first pixel
+                first = max(0, -(x // 2))
+                count = max(0, (min(right + offset, width) - x + 1) // 2 - first)
+                span, there = (first, count), (x % 2, v, x // 2 + first)
+                if limit < np.inf:
+                    gate, own = (guide, limit), (y, left // 2 + first)
+                    _add_gated_tap(
+                        roots, cubes, parity, span, values, there, weights, sums, gate, own
+                    )
+                else:
+                    _add_tap(roots, cubes, parity, span, values, there, weights, sums)
+        _divide(sums, weights, result[left:right])
+
+
+@njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")
+def _divide(sums, weights, result):
+    for parity in range(2):
+        total, weight = sums[parity], weights[parity]
+        for i in range(len(total)):
+            total[i] /= weight[i]
+    even, odd = sums
+    for i in range(len(result) // 2):
+        result[2 * i], result[2 * i + 1] = even[i], odd[i]
+    if len(result) % 2:
+        result[len(result) - 1] = even[len(result) // 2]
