@@ -27,8 +27,8 @@ os.environ.setdefault(
 # seconds of `evaluate`. Keep up to 256 MiB, and serve arrays below 32 MiB from them.
 os.environ.setdefault("MALLOC_MMAP_THRESHOLD_", str(32 << 20))
 os.environ.setdefault("MALLOC_TRIM_THRESHOLD_", str(256 << 20))
-# Larger tensors in pages of 2 MiB, where the system gives them: a tenth of a network's time for a frame
-# of 2048 × 1024 was the clearing of small ones.
+# torch's tensors of 2 MiB and more in pages as large, where the system gives them: the clearing of small
+# pages was a tenth of a network's time for a frame of 2048 × 1024.
 os.environ.setdefault("THP_MEM_ALLOC_ENABLE", "1")
 
 from neural_shadows.config.reading import check_files, read_config

@@ -49,13 +49,15 @@ def test_values_and_gradients_are_those_of_unfold(work, factor, size):
 @pytest.mark.parametrize("dtype", [torch.float32, torch.bfloat16])
 def test_rows_of_large_logits_among_others(dtype):
     """Beyond ±40 the largest is subtracted: exp(100) is no float32."""
-    logits, base, gradient = drawn((40, 37), 2, dtype=dtype)
+    logits, base, _ = drawn((40, 37), 2, dtype=dtype)
     rows = logits.detach()[:, :, 7:12]
     rows *= 60
     assert rows.abs().max() > 200
     ours = filtered(logits, base, 2)
     theirs = by_unfold(logits.double(), base.double(), 2)
-    assert torch.allclose(ours.double(), theirs, rtol=0, atol=2e-5)  # of exp(x) for x = 200
+    assert torch.allclose(
+        ours.double(), theirs, rtol=0, atol=2e-5
+    )  # a logit of 200 has steps of 1.5e-5
 
 
 @pytest.mark.parametrize("factor", [1, 2])
@@ -93,6 +95,19 @@ def test_no_tap_across_a_step_of_the_guide(work, factor):
     assert torch.equal(work(logits, base, factor, guide, 2.0), unlimited)
 
 
+@pytest.mark.parametrize("size", [(7, 35), (2, 4 * HALF_BLOCK + 3)])
+def test_a_guide_in_rows_of_small_logits_and_of_others(size):
+    """A logit of −60 in each kernel's last tap changes the way, and no weight."""
+    logits, base, _ = drawn(size, 2)
+    guide = torch.rand(base.shape, generator=torch.Generator().manual_seed(1))
+    logits = logits.detach().clamp(-10)
+    logits[:, 24::25] = -39
+    small = filtered(logits, base, 2, guide, 0.3)
+    logits[:, 24::25] = -60
+    assert torch.allclose(small, filtered(logits, base, 2, guide, 0.3), rtol=0, atol=1e-6)
+    assert not torch.allclose(small, filtered(logits, base, 2), atol=1e-3)
+
+
 @pytest.mark.parametrize(("levels", "reach"), [(3, 14), (4, 30), (5, 62)])
 def test_a_pixel_is_within_what_its_kernels_reach(levels, reach):
     """The smallest and the largest of 29, 61, 125 pixels along and down; and no fewer count."""
@@ -125,12 +140,15 @@ def test_weights_outside_the_frame_are_ignored():
 
 
 @pytest.mark.parametrize("broken", [torch.nan, torch.inf])
-def test_nan_logits_give_nan(broken):
+@pytest.mark.parametrize("factor", [1, 2])
+def test_nan_logits_give_nan(broken, factor):
     """A training looks for it in the loss."""
-    logits, base = torch.zeros(1, 25, 4, 4), torch.rand(1, 1, 4, 4)
+    logits, base = torch.zeros(1, 25, 4, 4), torch.rand(1, 1, 4 * factor, 4 * factor)
     logits[0, 12, 1, 2] = broken
-    output = filtered(logits, base)[0, 0]
-    assert output.isnan()[1, 2] and output.isnan().sum() == 1
+    is_nan = filtered(logits, base, factor)[0, 0].isnan()
+    expected = torch.zeros_like(is_nan)  # enlarged bilinearly, a logit reaches 4 × 4 pixels
+    expected[(slice(1, 5), slice(3, 7)) if factor == 2 else (1, 2)] = True
+    assert torch.equal(is_nan, expected)
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,7 @@ from neural_shadows.networks.screen_space.kernel_taps import (
 )
 
 HALF_BLOCK = 1024  # half-resolution columns at once; 512 and 256 take a tenth and a half more
-# The largest magnitude of small logits, as bits: weights are within e^±40, and none is subtracted.
+# Largest magnitude of small logits, as bits. Weights are within e^±40: floats without a logit subtracted.
 _LARGEST = np.float32(40).view(np.int32)
 _MAGNITUDE = np.int32(0x7FFFFFFF)  # all bits but the sign
 _OF_NEAR, _OF_FAR = LOG2_E * NEAR / 4, LOG2_E * FAR / 4  # for the fourth root
@@ -32,15 +32,15 @@ _index = np.uint64
 
 
 @njit(cache=True, nogil=True)
-def are_small(bits):
-    """Of each row of logits, whether all are numbers of so small a magnitude: (h,).
+def are_small(bits, begin, end):
+    """Of rows begin … end of logits, whether all are numbers of small magnitude; False of others: (h,).
 
     Args:
         bits: (25, h, w), the bits of logits in float32 or bfloat16 as integers.
     """
     shift = np.int32(32 - 8 * bits.itemsize)  # bfloat16 is the upper half of float32
-    small = np.empty(bits.shape[1], np.bool_)
-    for y in range(bits.shape[1]):
+    small = np.zeros(bits.shape[1], np.bool_)
+    for y in range(begin, end):
         largest = np.int32(0)
         for tap in range(TAPS):
             row = bits[tap, y]
@@ -67,19 +67,22 @@ def by_parity(picture, low, high):
 
 
 @njit(cache=True, nogil=True)
-def scratch():
-    """Rows of a block, at the beginning of lines of the cache.
+def scratch(width):
+    """Room for `filter_row` of a picture, in rows that begin at lines of the cache.
 
-    Fourth roots, their cubes (HALF_BLOCK + 2,), and by parity sums of weights, of weighted values
-    (2, HALF_BLOCK).
+    Of n half-resolution columns, HALF_BLOCK at most: fourth roots and their cubes (n + 3,), of one
+    column more on the left and two on the right; by parity sums of weights, of weighted values (2, n).
     """
-    roots, cubes = _lines(HALF_BLOCK + 2), _lines(HALF_BLOCK + 2)
-    sums = _lines(4 * HALF_BLOCK).reshape((2, 2, HALF_BLOCK))
-    return roots, cubes, sums[0], sums[1]
+    columns = min((width + 1) // 2, HALF_BLOCK)
+    aligned = -(-columns // _FLOATS_OF_A_LINE) * _FLOATS_OF_A_LINE
+    weights = _aligned(2 * aligned).reshape((2, aligned))[:, :columns]
+    sums = _aligned(2 * aligned).reshape((2, aligned))[:, :columns]
+    return _aligned(columns + 3), _aligned(columns + 3), weights, sums
 
 
 @njit(cache=True, nogil=True)
-def _lines(length):
+def _aligned(length):
+    """Floats, not set, that begin at a line of the cache."""
     room = np.empty(length + _FLOATS_OF_A_LINE, np.float32)
     begin = (-room.ctypes.data % (4 * _FLOATS_OF_A_LINE)) // 4
     return room[begin : begin + length]
@@ -104,47 +107,40 @@ def _take_roots(bits, tap, rows, columns, roots, cubes):
 
 
 @njit(cache=True, nogil=True, fastmath={"contract"})
-def _add_tap(roots, cubes, parity, span, values, there, weights, sums):
-    """Add a tap's weights and weighted values, of pixels `span` of a parity."""
-    first, count = _index(span[0]), _index(span[1])
-    near, far = first + _index(1), first + _index(2 * parity)
-    of, v, begin = _index(there[0]), _index(there[1]), _index(there[2])
-    parity = _index(parity)
-    for i in range(count):
+def _add_tap(roots, cubes, values, guides, limit, here, there, count, weights, sums):
+    """Add a tap's weights and weighted values.
+
+    Args:
+        here, there: parity, row and column of the first of `count` pixels, and of its tap.
+        weights, sums: of the block. The pixels' first column in it is `here`'s fourth number.
+    """
+    parity, y, begin, first = _index(here[0]), _index(here[1]), _index(here[2]), _index(here[3])
+    near, far = first + _index(1), first + _index(2 * here[0])
+    of, v, tap = _index(there[0]), _index(there[1]), _index(there[2])
+    gated = limit < np.inf
+    for i in range(_index(count)):
         weight = cubes[near + i] * roots[far + i]
+        if gated:
+            step = abs(guides[of, v, tap + i] - guides[parity, y, begin + i])
+            weight = weight if step <= limit else np.float32(0)
         weights[parity, first + i] += weight
-        sums[parity, first + i] += weight * values[of, v, begin + i]
-
-
-@njit(cache=True, nogil=True, fastmath={"contract"})
-def _add_gated_tap(roots, cubes, parity, span, values, there, weights, sums, gate, own):
-    """`_add_tap`, of pixels whose guide differs by no more than a limit from that at the tap."""
-    guide, limit = gate
-    first, count = _index(span[0]), _index(span[1])
-    near, far = first + _index(1), first + _index(2 * parity)
-    of, v, begin = _index(there[0]), _index(there[1]), _index(there[2])
-    parity, y, own_begin = _index(parity), _index(own[0]), _index(own[1])
-    for i in range(count):
-        step = abs(guide[of, v, begin + i] - guide[parity, y, own_begin + i])
-        weight = cubes[near + i] * roots[far + i] if step <= limit else np.float32(0)
-        weights[parity, first + i] += weight
-        sums[parity, first + i] += weight * values[of, v, begin + i]
+        sums[parity, first + i] += weight * values[of, v, tap + i]
 
 
 @njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")
-def filter_row(bits, step, values, guide, limit, y, row, result, rooms):
+def filter_row(bits, step, values, guides, limit, y, row, result, room):
     """Fill a row of a level's result, of which all logits are small.
 
     Args:
         bits: (25, h, w), the bits of logits in float32 or bfloat16 as integers.
         step: pixels from tap to tap.
-        values: rows that the kernels of this one reach, by parity.
-        guide: likewise, and the limit to its differences within a kernel; ∞ for none.
+        values: of `by_parity`. Rows beyond it are outside the frame.
+        guides: likewise, and the limit to their differences within a kernel; ∞ for none.
         y, row: the row's number in `values`, and in the enlarged `bits`.
         result: (W,) float32.
-        rooms: of `scratch`.
+        room: of `scratch`, for this width.
     """
-    roots, cubes, weights, sums = rooms
+    roots, cubes, weights, sums = room
     rows, width = half_rows(row, bits.shape[1]), len(result)
     for left in range(0, width, 2 * HALF_BLOCK):
         right = min(left + 2 * HALF_BLOCK, width)
@@ -158,22 +154,18 @@ def filter_row(bits, step, values, guide, limit, y, row, result, rooms):
                 continue
             _take_roots(bits, tap, rows, columns, roots, cubes)
             for parity in range(2):
-                x = left + offset + parity  # of the tap of the first pixel
+                x = left + offset + parity  # of the first pixel's tap
                 first = max(0, -(x // 2))
                 count = max(0, (min(right + offset, width) - x + 1) // 2 - first)
-                span, there = (first, count), (x % 2, v, x // 2 + first)
-                if limit < np.inf:
-                    gate, own = (guide, limit), (y, left // 2 + first)
-                    _add_gated_tap(
-                        roots, cubes, parity, span, values, there, weights, sums, gate, own
-                    )
-                else:
-                    _add_tap(roots, cubes, parity, span, values, there, weights, sums)
+                here = parity, y, left // 2 + first, first
+                there = x % 2, v, x // 2 + first
+                _add_tap(roots, cubes, values, guides, limit, here, there, count, weights, sums)
         _divide(sums, weights, result[left:right])
 
 
 @njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")
 def _divide(sums, weights, result):
+    """Weighted means of both parities, as pixels side by side."""
     for parity in range(2):
         total, weight = sums[parity], weights[parity]
         for i in range(len(total)):

@@ -52,14 +52,6 @@ def _tap_span(tap, y, left, right, step, height, width):
     return v, offset, first, last
 
 
-@njit(cache=True, nogil=True)
-def _half_span(y, left, right, rows, columns):
-    """Half-resolution rows (nearer, farther), columns [begin, end), number missing in front."""
-    near, far = half_rows(y, rows)
-    begin, end, missing = half_columns(left, right, columns)
-    return near, far, begin, end, missing
-
-
 @njit(cache=True, nogil=True, fastmath={"contract"})
 def _load(bits, factor, y, left, right, half, planes):
     """Load the logits of pixels (y, left … right) into planes (25, block)."""
@@ -71,7 +63,8 @@ def _load(bits, factor, y, left, right, half, planes):
             for i in range(len(row)):
                 plane[i] = np.int32(np.int32(row[i]) << shift).view(np.float32)
         return
-    near, far, begin, end, missing = _half_span(y, left, right, rows, columns)
+    near, far = half_rows(y, rows)
+    begin, end, missing = half_columns(left, right, columns)
     pairs, inner = (right - left + 1) // 2, half[missing:]
     for tap in range(TAPS):
         near_row, far_row = bits[tap, near, begin:end], bits[tap, far, begin:end]
@@ -98,7 +91,8 @@ def _add(planes, factor, y, left, right, half, to_logits):
             for i in range(len(row)):
                 row[i] += plane[i]
         return
-    near, far, begin, end, missing = _half_span(y, left, right, rows, columns)
+    near, far = half_rows(y, rows)
+    begin, end, missing = half_columns(left, right, columns)
     pairs, inner = (right - left + 1) // 2, half[missing:]
     for tap in range(TAPS):
         plane = planes[tap]
@@ -175,30 +169,35 @@ def filter_rows(bits, factor, step, source, guide, limit, begin, end, result, fi
         first_row: row of the result at the beginning of `bits`. Not by default: a call without it
             would be compiled apart.
     """
-    height = len(source)
+    height, width = source.shape
     planes, half = np.empty((TAPS, BLOCK), np.float32), np.empty(BLOCK // 2 + 3, np.float32)
-    rows = _block_row(), _block_row(), _block_row()
+    room = _block_row(), _block_row(), _block_row()
     if factor == 2:
         low, high = max(begin - 2 * step, 0), min(end + 2 * step, height)
         values = half_kernel_loops.by_parity(source, low, high)
-        own = half_kernel_loops.by_parity(guide, low, high) if limit < np.inf else values
-        small, rooms = half_kernel_loops.are_small(bits), half_kernel_loops.scratch()
+        guides = half_kernel_loops.by_parity(guide, low, high) if limit < np.inf else values
+        first, last = begin - first_row, end - 1 - first_row
+        small = half_kernel_loops.are_small(
+            bits, max(first // 2 - 1, 0), min(last // 2 + 2, bits.shape[1])
+        )
+        small_room = half_kernel_loops.scratch(width)
     for y in range(begin, end):
         row = y - first_row
         if factor == 2:
             near, far = half_rows(row, bits.shape[1])
             if small[near] and small[far]:
                 half_kernel_loops.filter_row(
-                    bits, step, values, own, limit, y - low, row, result[y], rooms
+                    bits, step, values, guides, limit, y - low, row, result[y], small_room
                 )
                 continue
-        _filter_row(bits, factor, step, source, guide, limit, y, row, result[y], planes, half, rows)
+        _filter_row(bits, factor, step, source, guide, limit, y, row, result[y], planes, half, room)
 
 
 @njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")
-def _filter_row(bits, factor, step, source, guide, limit, y, row, result, planes, half, rows):
+def _filter_row(bits, factor, step, source, guide, limit, y, row, result, planes, half, room):
+    """Fill row y of a level's result, `row` of the enlarged `bits`, by logits of any size."""
     height, width = source.shape
-    top, total, sums = rows
+    top, total, sums = room
     for left in range(0, width, BLOCK):
         right = min(left + BLOCK, width)
         _load(bits, factor, row, left, right, half, planes)

@@ -33,7 +33,7 @@ def filtered(
         logits: (B, levels · 25, h, w), a level's taps row by row; copied unless contiguous.
         base: (B, 1, H, W) float32. H ≤ factor · h and W ≤ factor · w: the rest is ignored.
         factor: 1, or 2 where logits are of half the resolution: they are enlarged bilinearly.
-        guide: as the base, without gradients. limit: taps that differ more from their kernel's pixel
+        guide: as the base, finite, without gradients. limit: taps that differ more from their kernel's pixel
             in the guide have no weight, so that no shadow goes across a silhouette.
 
     Raises:

@@ -81,9 +81,10 @@ def through(module: nn.Module, picture: Picture) -> Picture:
 
 
 def _convolved(layer: nn.Conv2d, picture: Picture, relu: bool) -> Picture:
-    if layer.kernel_size == (1, 1) and picture.pixels:
+    if layer.kernel_size == (1, 1) and picture.pixels is not None:
         return _convolved_squares(layer, picture.pixels, relu)
     border, height = layer.kernel_size[0] // 2, picture.height
+    convolve = _convolution(layer.weight, layer.bias, 1, relu)
 
     def rows(begin: int, end: int) -> Tensor:
         low, high = max(begin - border, 0), min(end + border, height)
@@ -95,7 +96,7 @@ def _convolved(layer: nn.Conv2d, picture: Picture, relu: bool) -> Picture:
             columns = 0
         elif above or below:
             x = functional.pad(x, (0, 0, above, below))
-        return _convolution(x, layer.weight, layer.bias, (0, columns), 1, relu)
+        return convolve(x, (0, columns))
 
     return Picture(height, rows)
 
@@ -104,28 +105,30 @@ def _convolved_squares(layer: nn.Conv2d, pixels: Picture, relu: bool) -> Picture
     """A convolution of 2 × 2 pixels as channels, without gathering these: a third of the time."""
     weight = layer.weight.view(len(layer.weight), -1, 2, 2)
     weight = weight.contiguous(memory_format=torch.channels_last)
-    return mapped(lambda rows: _convolution(rows, weight, layer.bias, (0, 0), 2, relu), pixels, 2)
+    convolve = _convolution(weight, layer.bias, 2, relu)
+    return mapped(lambda rows: convolve(rows, (0, 0)), pixels, 2)
 
 
 def _convolution(
-    x: Tensor,
-    weight: Tensor,
-    bias: Tensor | None,
-    padding: tuple[int, int],
-    stride: int,
-    relu: bool,
-) -> Tensor:
+    weight: Tensor, bias: Tensor | None, stride: int, relu: bool
+) -> Callable[[Tensor, tuple[int, int]], Tensor]:
+    """A convolution of rows, padded by (rows, columns); its activation in the same pass, if oneDNN can."""
     if torch.backends.mkldnn.is_available() and is_native(weight.dtype, _CPU):
-        activation = "relu" if relu else "none"
-        return torch.ops.mkldnn._convolution_pointwise(
-            x, weight, bias, padding, (stride, stride), (1, 1), 1, activation, [], ""
+        steps, activation = (stride, stride), "relu" if relu else "none"
+        convolve = torch.ops.mkldnn._convolution_pointwise
+        return lambda x, padding: convolve(
+            x, weight, bias, padding, steps, (1, 1), 1, activation, [], ""
         )
-    y = functional.conv2d(x, weight, bias, stride, padding)
-    return y.relu_() if relu else y
+
+    def in_two_passes(x: Tensor, padding: tuple[int, int]) -> Tensor:
+        y = functional.conv2d(x, weight, bias, stride, padding)
+        return y.relu_() if relu else y
+
+    return in_two_passes
 
 
 def _halved(module: nn.Module, x: Tensor) -> Tensor:
-    """`module(x)`; torch's maximum of squares also finds where it is, and takes twice the time."""
+    """`module(x)` of even sides; torch's maximum of 2 × 2 pixels also finds its place, in twice the time."""
     if not isinstance(module, nn.MaxPool2d):
         return module(x)
     rows = torch.maximum(x[:, :, ::2], x[:, :, 1::2])
