@@ -31,29 +31,57 @@ _FLOATS_OF_A_LINE = 16  # of the cache
 _index = np.uint64
 
 
-@njit(cache=True, nogil=True)
-def are_small(bits, begin, end):
-    """Of rows begin … end of logits, whether all are numbers of small magnitude; False of others: (h,).
+@njit(cache=True, nogil=True, error_model="numpy")
+def filter_small_rows(bits, step, source, guide, limit, begin, end, result, first_row):
+    """Fill those of rows begin … end whose logits are all of small magnitude.
 
     Args:
-        bits: (25, h, w), the bits of logits in float32 or bfloat16 as integers.
+        See `pixel_kernel_loops.filter_rows`; logits are of half the resolution.
+
+    Returns:
+        Whether they are filled, (end − begin,).
     """
-    shift = np.int32(32 - 8 * bits.itemsize)  # bfloat16 is the upper half of float32
+    height, width = source.shape
+    low, high = max(begin - 2 * step, 0), min(end + 2 * step, height)
+    values = _by_parity(source, low, high)
+    guides = _by_parity(guide, low, high) if limit < np.inf else values
+    room = _scratch(width)
+    first, last = begin - first_row, end - 1 - first_row
+    small = _are_small(bits, max(first // 2 - 1, 0), min(last // 2 + 2, bits.shape[1]))
+    filled = np.zeros(end - begin, np.bool_)
+    for y in range(begin, end):
+        near, far = half_rows(y - first_row, bits.shape[1])
+        if small[near] and small[far]:
+            _filter_row(bits, near, far, step, values, guides, limit, y - low, result[y], room)
+            filled[y - begin] = True
+    return filled
+
+
+@njit(cache=True, nogil=True)
+def _are_small(bits, begin, end):
+    """Of rows begin … end of logits, whether all are numbers of small magnitude; False of others: (h,)."""
     small = np.zeros(bits.shape[1], np.bool_)
     for y in range(begin, end):
         largest = np.int32(0)
         for tap in range(TAPS):
-            row = bits[tap, y]
-            for i in range(len(row)):
-                # Bits of magnitudes are ordered as these are, and those of NaN above all.
-                magnitude = np.int32(np.int32(row[i]) << shift) & _MAGNITUDE
-                largest = magnitude if magnitude > largest else largest
+            largest = max(largest, _largest_magnitude(bits[tap, y]))
         small[y] = largest <= _LARGEST
     return small
 
 
 @njit(cache=True, nogil=True)
-def by_parity(picture, low, high):
+def _largest_magnitude(row):
+    """Bits of a row's largest magnitude; they are ordered as magnitudes are, those of NaN above all."""
+    shift = np.int32(32 - 8 * row.itemsize)  # bfloat16 is the upper half of float32
+    largest = np.int32(0)
+    for i in range(len(row)):
+        magnitude = np.int32(np.int32(row[i]) << shift) & _MAGNITUDE
+        largest = magnitude if magnitude > largest else largest
+    return largest
+
+
+@njit(cache=True, nogil=True)
+def _by_parity(picture, low, high):
     """Rows low … high of a picture (H, W), even pixels and odd ones: (2, high − low, ⌈W / 2⌉)."""
     width = picture.shape[1]
     parities = np.empty((2, high - low, (width + 1) // 2), np.float32)
@@ -67,16 +95,16 @@ def by_parity(picture, low, high):
 
 
 @njit(cache=True, nogil=True)
-def scratch(width):
-    """Room for `filter_row` of a picture, in rows that begin at lines of the cache.
+def _scratch(width):
+    """Room for `_filter_row` of a picture, in rows that begin at lines of the cache.
 
     Of n half-resolution columns, HALF_BLOCK at most: fourth roots and their cubes (n + 3,), of one
-    column more on the left and two on the right; by parity sums of weights, of weighted values (2, n).
+    column more on the left and two on the right; by parity sums of weights, of weighted values (2, n),
+    n rounded up to a line of the cache.
     """
     columns = min((width + 1) // 2, HALF_BLOCK)
-    aligned = -(-columns // _FLOATS_OF_A_LINE) * _FLOATS_OF_A_LINE
-    weights = _aligned(2 * aligned).reshape((2, aligned))[:, :columns]
-    sums = _aligned(2 * aligned).reshape((2, aligned))[:, :columns]
+    size = 2, -(-columns // _FLOATS_OF_A_LINE) * _FLOATS_OF_A_LINE
+    weights, sums = _aligned(2 * size[1]).reshape(size), _aligned(2 * size[1]).reshape(size)
     return _aligned(columns + 3), _aligned(columns + 3), weights, sums
 
 
@@ -89,12 +117,12 @@ def _aligned(length):
 
 
 @njit(cache=True, nogil=True, fastmath={"contract"})
-def _take_roots(bits, tap, rows, columns, roots, cubes):
+def _take_roots(bits, tap, near, far, columns, roots, cubes):
     """Fourth roots of a tap's weights, by half-resolution columns, and their cubes."""
     shift = np.int32(32 - 8 * bits.itemsize)
     begin, end, missing = columns
     first, count, skip = _index(begin), _index(end - begin), _index(missing)
-    tap, near, far = _index(tap), _index(rows[0]), _index(rows[1])
+    tap, near, far = _index(tap), _index(near), _index(far)
     for i in range(count):
         a = np.int32(np.int32(bits[tap, near, first + i]) << shift).view(np.float32)
         b = np.int32(np.int32(bits[tap, far, first + i]) << shift).view(np.float32)
@@ -128,20 +156,17 @@ def _add_tap(roots, cubes, values, guides, limit, here, there, count, weights, s
 
 
 @njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")
-def filter_row(bits, step, values, guides, limit, y, row, result, room):
-    """Fill a row of a level's result, of which all logits are small.
+def _filter_row(bits, near, far, step, values, guides, limit, y, result, room):
+    """Fill a row of a level's result.
 
     Args:
-        bits: (25, h, w), the bits of logits in float32 or bfloat16 as integers.
-        step: pixels from tap to tap.
-        values: of `by_parity`. Rows beyond it are outside the frame.
-        guides: likewise, and the limit to their differences within a kernel; ∞ for none.
-        y, row: the row's number in `values`, and in the enlarged `bits`.
+        near, far: rows of `bits` that it lies between.
+        values, guides: of `_by_parity`, and y the row in them. Rows beyond are outside the frame.
         result: (W,) float32.
-        room: of `scratch`, for this width.
+        room: of `_scratch`, for this width.
     """
     roots, cubes, weights, sums = room
-    rows, width = half_rows(row, bits.shape[1]), len(result)
+    width = len(result)
     for left in range(0, width, 2 * HALF_BLOCK):
         right = min(left + 2 * HALF_BLOCK, width)
         columns = half_columns(left, right, bits.shape[2])
@@ -152,7 +177,7 @@ def filter_row(bits, step, values, guides, limit, y, row, result, room):
             offset = (tap % SIDE - SIDE // 2) * step
             if v < 0 or v >= values.shape[1]:
                 continue
-            _take_roots(bits, tap, rows, columns, roots, cubes)
+            _take_roots(bits, tap, near, far, columns, roots, cubes)
             for parity in range(2):
                 x = left + offset + parity  # of the first pixel's tap
                 first = max(0, -(x // 2))
