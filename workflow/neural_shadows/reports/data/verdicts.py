@@ -30,6 +30,17 @@ MEANINGS = {
 }
 VERDICTS = tuple(MEANINGS)
 
+# For a reader who has not met the words.
+IN_SHORT = {
+    NOT_COMPARABLE: "it is about another mesh or device than ours.",
+    NOT_LEARNED: "our network has learned too little to tell.",
+    VACUOUS: "true here, and so it is of a picture without any shadow, or all dark, in the network's place.",
+    TOO_SMALL: "we have too few samples, seeds or scenes to tell.",
+    UNDECIDED: "the measurements allow both.",
+    SUPPORTED: "true in each comparison.",
+    CONTRADICTED: "clearly untrue in one comparison or more.",
+}
+
 # For those who cannot tell the colours apart.
 SYMBOLS = {
     NOT_COMPARABLE: "≠",

@@ -6,7 +6,7 @@ from pathlib import Path
 import pandas as pd
 
 from neural_shadows.reports.data.phrases import TEXTS, describe_samples, section_of
-from neural_shadows.reports.data.verdicts import MEANINGS, SYMBOLS, css_class
+from neural_shadows.reports.data.verdicts import IN_SHORT, MEANINGS, SYMBOLS, css_class
 from neural_shadows.settings.kinds import kinds
 
 # Of a claim, by its `text`.
@@ -38,6 +38,11 @@ class Verdict:
     def meaning(self) -> str:
         """Its meaning for a claim."""
         return MEANINGS[self.name]
+
+    @property
+    def in_short(self) -> str:
+        """Its meaning for a first-time reader."""
+        return IN_SHORT[self.name]
 
 
 @dataclass(frozen=True)
