@@ -13,7 +13,11 @@ from neural_shadows.errors import InputError
 from neural_shadows.frames.feature_names import GUIDE, base_of, channels_of
 from neural_shadows.networks.screen_space.kernel_unet import KernelUnet
 from neural_shadows.networks.screen_space.kernel_widths import KERNEL_TAPS
-from neural_shadows.networks.screen_space.layers import Halved, ReplicatedConvolution
+from neural_shadows.networks.screen_space.layers import (
+    Halved,
+    ReplicatedConvolution,
+    SquaresAsChannels,
+)
 from neural_shadows.networks.screen_space.screen_network import ScreenNetwork
 from neural_shadows.networks.screen_space.shadow_unet import ShadowUnet
 from neural_shadows.viewer.balanced_unet import balanced
@@ -25,7 +29,7 @@ SHOWN = {
     "ends": ("half",),
     "answer": ("visibility",),
 }
-_ENTRANCES = {nn.PixelUnshuffle: "SQUARES", Halved: "MEANS"}
+_ENTRANCES = {SquaresAsChannels: "SQUARES", Halved: "MEANS"}
 _MOST_HALF = torch.finfo(torch.float16).max
 
 

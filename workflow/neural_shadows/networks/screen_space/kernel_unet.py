@@ -21,7 +21,13 @@ from neural_shadows.networks.screen_space.kernel_parts import (
     normed,
 )
 from neural_shadows.networks.screen_space.kernel_widths import FIRST_LEVELS, kernel_convolutions
-from neural_shadows.networks.screen_space.layers import doubled, down_and_up, initialise, padded
+from neural_shadows.networks.screen_space.layers import (
+    SquaresAsChannels,
+    doubled,
+    down_and_up,
+    initialise,
+    padded,
+)
 from neural_shadows.networks.screen_space.screen_network import ScreenNetwork
 
 _CONVOLUTIONS = nn.Conv2d | nn.ConvTranspose2d
@@ -72,7 +78,7 @@ class KernelUnet(ScreenNetwork):
         self._first = FIRST_LEVELS[ends]
         last_level = self._first + len(widths) - 1
         self.multiple = 2**last_level
-        self.entrance = nn.PixelUnshuffle(2) if self._first else nn.Identity()
+        self.entrance = SquaresAsChannels() if self._first else nn.Identity()
         numbers = range(self._first, last_level + 1)
         of_level = [[layer for layer in layers if layer.level == k] for k in numbers]
         self.levels = nn.ModuleList(KernelLevel(level) for level in of_level[:-1])

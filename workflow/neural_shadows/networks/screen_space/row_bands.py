@@ -21,6 +21,7 @@ from neural_shadows.networks.screen_space.layers import (
     Halved,
     ReplicatedConvolution,
     SquareOfPixels,
+    SquaresAsChannels,
 )
 from neural_shadows.networks.screen_space.pixel_kernel_loops import filter_rows
 from neural_shadows.networks.screen_space.pixel_kernels import bits_of
@@ -67,8 +68,8 @@ def through(module: nn.Module, picture: Picture) -> Picture:
         return picture
     if isinstance(module, nn.Conv2d):
         return _convolved(module, picture, False)
-    if isinstance(module, nn.PixelUnshuffle):
-        return mapped(_unshuffled, picture, 2)._replace(pixels=picture)
+    if isinstance(module, SquaresAsChannels):
+        return mapped(module, picture, 2)._replace(pixels=picture)
     if isinstance(module, _HALVING):
         return mapped(lambda rows: _halved(module, rows), picture, 2)
     if isinstance(module, SquareOfPixels):  # in planes a third of the time
@@ -133,13 +134,6 @@ def _halved(module: nn.Module, x: Tensor) -> Tensor:
         return module(x)
     rows = torch.maximum(x[:, :, ::2], x[:, :, 1::2])
     return torch.maximum(rows[..., ::2], rows[..., 1::2])
-
-
-def _unshuffled(x: Tensor) -> Tensor:
-    """`pixel_unshuffle` by 2 of channels-last pictures, two to three times as fast."""
-    pixels = x.permute(0, 2, 3, 1)
-    squares = [pixels[:, row::2, column::2] for row in (0, 1) for column in (0, 1)]
-    return torch.stack(squares, -1).flatten(3).permute(0, 3, 1, 2)
 
 
 def _doubled(module: nn.Module, picture: Picture) -> Picture:

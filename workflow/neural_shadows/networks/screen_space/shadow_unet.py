@@ -13,6 +13,7 @@ from neural_shadows.networks.screen_space.layers import (
     Concatenation,
     Halved,
     SquareOfPixels,
+    SquaresAsChannels,
     Sum,
     doubled,
     down_and_up,
@@ -89,7 +90,7 @@ class ShadowUnet(ScreenNetwork):
         self.first, self.multiple = first, 2**deepest
         reduction = [layer for layer in layers if layer.part == "extraction"]
         self.extraction = stacked(reduction, linear_end=True) if reduction else None
-        self.entrance = {"shuffle": nn.PixelUnshuffle(2), "half": Halved()}.get(form)
+        self.entrance = {"shuffle": SquaresAsChannels(), "half": Halved()}.get(form)
         self.exit = {"shuffle": SquareOfPixels(), "half": doubled()}.get(form)
         self.levels = nn.ModuleList(
             Level(
