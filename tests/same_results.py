@@ -4,6 +4,7 @@ import json
 import re
 import shutil
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from fnmatch import fnmatch
 from pathlib import Path
 
@@ -82,7 +83,7 @@ def differing_reports(
     Args:
         folder: for a copy of the other run, which makes its reports again there.
     """
-    copy = other.copy(folder)
+    copy = replace(other.copy(folder), cores=checkout.cores)  # the page has the command
     for path in _files(checkout.results):
         if _keys(path):
             shutil.copy2(checkout.results / path, copy.results / path)
