@@ -60,10 +60,13 @@ def methods(frame: SoftFrame, rounds: int) -> list[Row]:
 
 def filters(frame: SoftFrame, rounds: int) -> list[Row]:
     """Pictures of one ray a pixel that each denoiser smooths a second, alone, without the rays."""
-    works = {
-        key: partial(denoiser.single, *denoiser.pictures(frame, RADIUS, 1), frame.surface)
-        for key, denoiser in BY_KEY.items()
-    }
+    pictures = {key: one.pictures(frame, RADIUS, 1) for key, one in BY_KEY.items()}
+
+    def smooth(key: str) -> None:
+        # Copies: of the picture before, some have only what their settings do not share to compute.
+        BY_KEY[key].single(*map(np.copy, pictures[key]), frame.surface)
+
+    works = {key: partial(smooth, key) for key in BY_KEY}
     rate = {key: 1 / seconds for key, seconds in median_seconds(works, 3 * rounds).items()}
     stage = f"filter of {frame.surface.width} x {frame.surface.height}: "
     return [
