@@ -4,7 +4,6 @@ import json
 import re
 import shutil
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from fnmatch import fnmatch
 from pathlib import Path
 
@@ -28,9 +27,9 @@ MEASURED = {
 # Folders below results/<scale> of what jobs say on the way, and of what is not finished.
 NO_RESULTS = re.compile(r"(^|/)(logs|benchmarks|checkpoints|[^/]+\.unfinished)/")
 
-# The page says how long the jobs took. A manifest has times, and checksums of the page; expected minutes
-# are of the machine's rates just then.
-CHANGING = re.compile(rb"<dt>durations</dt><dd>[^<]*")
+# The page has the last command, and says how long the jobs took. A manifest has times, and checksums of
+# the page; expected minutes are of the machine's rates just then.
+CHANGING = re.compile(rb"<dt>durations</dt><dd>[^<]*|<pre><code>snakemake [^<]*")
 OF_ONE_RUN = (
     *("manifest.json", "ro-crate-metadata.json"),
     *(f"expected_minutes.{end}" for end in ("csv", "md", "json")),
@@ -83,7 +82,7 @@ def differing_reports(
     Args:
         folder: for a copy of the other run, which makes its reports again there.
     """
-    copy = replace(other.copy(folder), cores=checkout.cores)  # the page has the command
+    copy = other.copy(folder)
     for path in _files(checkout.results):
         if _keys(path):
             shutil.copy2(checkout.results / path, copy.results / path)
