@@ -38,7 +38,8 @@ def profile_screen_network(
     device: str,
     threads: int,
 ) -> None:
-    """Time an untrained network on one frame. Its times do not depend on its weights.
+    """Time an untrained network on one frame. Its times do not depend on its weights, while logits of
+    kernels are small (see `half_kernel_loops`), as those of trained networks were.
 
     Frames, frames by part and matrix products take turns; of each the median counts. Whole frames
     are evaluated in bands of rows, as methods do; parts one after another. A number format

@@ -22,6 +22,7 @@ from neural_shadows.networks.screen_space.kernel_taps import (
 
 HALF_BLOCK = 1024  # half-resolution columns at once; 512 and 256 take a tenth and a half more
 # Largest magnitude of small logits, as bits. Weights are within e^±40: floats without a logit subtracted.
+# Of networks trained for 600 to 6,000 steps the largest in 18 test windows is 13 to 27.
 _LARGEST = np.float32(40).view(np.int32)
 _MAGNITUDE = np.int32(0x7FFFFFFF)  # all bits but the sign
 _OF_NEAR, _OF_FAR = LOG2_E * NEAR / 4, LOG2_E * FAR / 4  # for the fourth root
