@@ -20,7 +20,7 @@ from neural_shadows.networks.screen_space.kernel_taps import (
     half_rows,
 )
 
-HALF_BLOCK = 1024  # half-resolution columns at once; 512 and 256 take a tenth and a half more
+HALF_BLOCK = 1024  # half-resolution columns at once; 512 takes a tenth more, 256 a half
 # Largest magnitude of small logits, as bits. Weights are within e^±40: floats without a logit subtracted.
 # Of networks trained for 600 to 6,000 steps the largest in 18 test windows is 13 to 27.
 _LARGEST = np.float32(40).view(np.int32)
@@ -150,8 +150,8 @@ def _add_tap(roots, cubes, values, guides, limit, here, there, count, weights, s
     for i in range(_index(count)):
         weight = cubes[near + i] * roots[far + i]
         if gated:
-            step = abs(guides[of, v, tap + i] - guides[parity, y, begin + i])
-            weight = weight if step <= limit else np.float32(0)
+            difference = abs(guides[of, v, tap + i] - guides[parity, y, begin + i])
+            weight = weight if difference <= limit else np.float32(0)
         weights[parity, first + i] += weight
         sums[parity, first + i] += weight * values[of, v, tap + i]
 

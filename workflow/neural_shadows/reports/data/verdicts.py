@@ -34,7 +34,7 @@ VERDICTS = tuple(MEANINGS)
 IN_SHORT = {
     NOT_COMPARABLE: "it is about another mesh or device than ours.",
     NOT_LEARNED: "our network has learned too little to tell.",
-    VACUOUS: "true here, and so it is of a picture without any shadow, or all dark, in the network's place.",
+    VACUOUS: "true here, and so it is with something untrained in the network's place.",
     TOO_SMALL: "we have too few samples, seeds or scenes to tell.",
     UNDECIDED: "the measurements allow both.",
     SUPPORTED: "true in each comparison.",
