@@ -49,6 +49,8 @@ def processor_seconds(command: Sequence[str]) -> float:
 
 def share_table(results: Path) -> pd.DataFrame:
     """Jobs, seconds of all and of their starts by rule, Snakemake's plan, and the sum of all."""
+    if not (results / "logs").is_dir():
+        raise SystemExit(f"{results}/logs: no such folder. Run `snakemake` first")
     scripts, rows = modules(), []
     for folder in sorted((results / "logs").iterdir()):
         jobs = len([*folder.glob("*.log")])

@@ -54,10 +54,9 @@ try:
     overlays = len(
         workflow.config_settings.configfiles
     )  # they come first, and are merged last
-    CONFIG = read_config(
-        config, [*workflow.configfiles[overlays:], *workflow.configfiles[:overlays]]
-    )
-    check_files(CONFIG)
+    files = [*workflow.configfiles[overlays:], *workflow.configfiles[:overlays]]
+    CONFIG = read_config(config, files)
+    check_files(CONFIG, files, config)
     # Not in jobs: a cluster's command line names the rules that a job may run, as `viewer`.
     if workflow.is_main_process:
         arguments, _ = get_argument_parser().parse_known_args(sys.argv[1:])

@@ -8,12 +8,12 @@ from neural_shadows.config.reading import read_config
 # Key, value in YAML, and what the message has among others.
 MISTAKES = """
 sceens | {} | unknown key: 'sceens' (did you mean 'scenes'?) is not among scale, seed
-frame_sets.views.width | '600' | frame_sets.views.width = '600': Input should be a valid integer
+frame_sets.views.width | '600' | frame_sets.views.width = '600': is text, not a number
 frame_sets.views.width | null | frame_sets.views.width: this key is missing
 claims.slower_than_shadow_maps.kind | null | claims.slower_than_shadow_maps: the key 'kind' is missing
 networks.thesis.encoding | wavelet | encoding = 'wavelet': should be one of 'frequency', 'hash_grid'
 experiments.dragon_hash_grid.network.table_size | 1000 | table_size: 1000 is not a power of two
-trainings.base.learning_rate | 1e-3 | = '1e-3': is text to YAML; write a number with a
+trainings.base.learning_rate | 1e-3 | = '1e-3': is text, not a number. In a file write it without quotes
 scale | networks | scale = 'networks': is a folder of results
 scale | sun_hours | scale = 'sun_hours': is a folder of results
 scenes.dragon.mesh.path | x.ply | (an overlay removes a key of the default by setting it to null)
@@ -24,7 +24,7 @@ experiments.dragon.network | thesi | experiments.dragon.network: 'thesi' (did yo
 experiments.dragon_biased | {like: dragon} | experiments.dragon_biased: '_biased' is the ending of rows with a bias
 experiments.twin | {like: dragon} | experiments.twin: equals experiments.dragon
 tables.maps | {rows: [shadow_map_64], title: x} | tables.maps: has shadow maps only. Add `scene`
-tables.table_4_3.rows.0 | dragn | tables.table_4_3.rows of dragon: 'dragn' (did you mean 'dragon
+tables.table_4_3.rows.0 | dragn | tables.table_4_3.rows: of dragon: 'dragn' (did you mean 'dragon
 tables.table_4_3.rows.0 | shadow_map_512 | 'shadow_map_512' is listed twice
 tables.table_4_3.rows.0 | {method: dragon_64, published: netwrk} | tables.table_4_3: published: 'netwrk' (did you mean 'network'?)
 tables.beyond.rows.dragon.0 | {method: ray_traced, published: network} | tables.beyond: has rows with `published`: 'network', and none itself
@@ -46,6 +46,12 @@ viewers.table | {scene: dragon} | viewers.table
 viewers.viewer_soft.scene | interiors | 'interiors' has a layout of its own for each part. Name a scene without
 viewers.viewer_soft.frame_set | sun | viewers.viewer_soft.frame_set: 'sun' has no sphere as its light. Name a
 viewers.viewer_soft.networks | [dragon] | viewers.viewer_soft.networks.0: 'dragon' is not an experiment on frames
+viewers.viewer_soft.networks | [kpnsm_full_ends] | viewers.viewer_soft.networks: 'kpnsm_full_ends' has ends: full, without a shader. Allowed: half
+viewers.viewer_soft.networks | [nsm_exponential] | 'nsm_exponential' has answer: exponent, without a shader
+tables.t | {title: t, frame_set: frames, methods: [hard]} | tables.t: unknown key: 'frame_set' is not among
+tables.t | {title: t, frame_set: frames, methods: [hard]} | (of the default `kind: comparison`; others have others)
+tables.soft_methods.methods | [rt_3_svgf] | is not among rt_1_svgf, rt_2_svgf, rt_4_svgf
+experiments.dragon.label | "{stepz}" | experiments.dragon.label: '{stepz}': braces must name a setting
 claims.sampling.pairs | [[shadow_map_8, shadow_map_4]] | no experiment among them. Add one
 claims.learning_rate.pairs | [[dragon, dragon]] | 'dragon' is compared with itself
 claims.learning_rate.pairs | [[dragon, dragon_field]] | 'dragon_field' of encoding 'occupancy_field' has another loss
@@ -73,7 +79,7 @@ learning_curves | {c: {experiments: [kpnsm], frames: [16, 33, 64], steps: [9], s
 learning_curves | {c: {experiments: [kpnsm], frames: [16, 32, 80], steps: [9], seeds: 3}} | frames: 80: should be whole files of frame_sets.windows, 16 frames each, and no more than its train = 64
 learning_curves | {c: {experiments: [dragon], frames: [16, 32, 64], steps: [9], seeds: 3}} | 'dragon' is not an experiment on frames (with `frame_set`)
 tables.curves | {kind: learning_curves, title: x, rows: {dragon: [dragon]}} | tables.curves.kind: 'learning_curves' needs the section `learning_curves`
-tables.table_4_3.rows.0 | {method: no_shadow, bias: held_out} | tables.table_4_3.rows of dragon: 'no_shadow' is a null predictor and has no depth bias
+tables.table_4_3.rows.0 | {method: no_shadow, bias: held_out} | tables.table_4_3.rows: of dragon: 'no_shadow' is a null predictor and has no depth bias
 tables.table_4_3.rows.0 | {method: ray_traced, bias: held_out} | 'ray_traced' is not among shadow_map_N
 tables.table_4_3.rows.0 | shadow_map_512_biased | 'shadow_map_512_biased' (did you mean
 tables.table_4_3.against | dragon_64 | table_4_3.against: 'dragon_64' (did you mean
@@ -103,7 +109,7 @@ experiments.nsm.network | thesis | experiments.nsm.network: 'thesis' is not a sc
 experiments.nsm.training | base | experiments.nsm.training: 'base' is not a training on frames (with `crops`). Allowed: nsm
 experiments.nsm.frame_set | views | 'views' is not a set of frames under an area light. Allowed: frames
 tables.nsm_unseen.networks | [dragon] | networks.0: 'dragon' is not an experiment on frames (with `frame_set`). Allowed: nsm
-tables.table_4_3.rows.0 | nsm | rows of dragon: 'nsm' is not an experiment on rays (with `scene`). Allowed: dragon
+tables.table_4_3.rows.0 | nsm | rows: of dragon: 'nsm' is not an experiment on rays (with `scene`). Allowed: dragon
 tables.soft_methods.methods | [dragon] | methods: 'dragon' is not an experiment on frames (with `frame_set`). Allowed: nsm
 learning_curves | {c: {experiments: [nsm], steps: [1, 2, 3], seeds: 3}} | 'nsm' is not an experiment on rays (with `scene`). Allowed: dragon
 frame_sets.views | null | frame_sets.views: this key is missing
@@ -160,7 +166,7 @@ experiments.kernels_rays | {network: kernels_rays, training: kpnsm, frame_set: w
 experiments.kernels_rays.training | nsm | perturbation = 3: perturbed frames have no rays, which the network filters. Set perturbation: 0
 networks.kpnsm.edge | 1 | networks.kpnsm: edge: needs the feature 'log_d'
 networks.kpnsm.features | [cosine, z_b] | networks.kpnsm.features: kernels filter one of the features base_hard
-experiments.nsm.network | original_5 | experiments.nsm.network: 'original_5' (did you mean 'original'?) is not among nsm, trimmed
+experiments.nsm.network | original_5 | experiments.nsm.network: 'original_5' (did you mean 'original'?) is not among original, nsm
 experiments.nsm.training | {steps: 1, crops: 1, crop: 15, learning_rate: 1.0} | experiments.nsm.training: crop = 15: the network's deepest level is 1/16 of a frame. Set 16 or more
 experiments.mine | {network: {form: direct, widths: [4, 8, 8, 8], features: [c_e]}, training: {steps: 1, crops: 1, crop: 15, learning_rate: 1.0}, frame_set: nsm, scenes: [room]} | 1/16 of a frame
 experiments.mine | {network: {form: direct, widths: [4, 8], features: [c_e]}, training: {steps: 1, crops: 3, crop: 64, learning_rate: 1.0}, frame_set: nsm, scenes: [room]} | crops = 3: the network's batch norms take two crops at a time. Set an even number

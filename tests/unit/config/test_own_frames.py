@@ -53,6 +53,13 @@ def test_whole_frames_pass(engine):
     check_targets(["reports/answers/quay/kpnsm.csv"], config, config_folder())
 
 
+@pytest.mark.parametrize("method", ["pcss", "hard", "rt_4"])
+def test_a_method_that_needs_a_scene_is_refused(engine, method):
+    target = f"reports/answers/quay/{method}.csv"
+    words = f"{target}: '{method}' needs the scene's geometry, and a user's own frames have none"
+    assert refused(engine(), target).startswith(words)
+
+
 @pytest.mark.parametrize("target", [None, "reports/answers/quay/kpnsm.csv"])
 def test_a_missing_image_is_named_with_its_key(engine, target):
     said = refused(engine([NAMES["c_v"]], None if target else ["base_hard", "kpnsm"]), target)

@@ -115,6 +115,17 @@ def test_a_message_names_the_file_and_line_of_its_key(tmp_path, values):
     values["seed"] = 3
     values["scenes"]["dragon"]["light"] = 5  # of no file: the last that has the scene
     assert said().endswith("mine.yaml, line 3]")
+    overlay.write_text("\nscenes:\n  dragon:\n    up: z\n")
+    values["scenes"]["dragon"] |= {"light": {"kind": "sphere"}, "up": 5}  # of the command line
+    assert "scenes.dragon.up = 5: " in said() and "mine.yaml" not in said()
+
+
+def test_a_missing_files_message_names_where_it_is_configured(tmp_path, values):
+    overlay = tmp_path / "mine.yaml"
+    overlay.write_text("scenes:\n  dragon:\n    mesh:\n      path: gone.ply\n")
+    values["scenes"]["dragon"]["mesh"] = {"path": "gone.ply"}
+    with pytest.raises(InputError, match=r"mesh.path = 'gone.ply': no such .*mine.yaml, line 4\]$"):
+        check_files(read_config(values, [overlay]), [overlay], values)
 
 
 def test_only_one_files_reports_are_made(values):

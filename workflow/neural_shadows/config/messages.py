@@ -30,9 +30,12 @@ def describe(error: ValidationError, values: Any) -> str:
             message = "this key is missing"
         case "dict_type" | "model_type" | "model_attributes_type":
             message = f"should be a section of keys, not {_shown(problem['input'])}"
-        case "float_type" if isinstance(problem["input"], str) and _NUMBER.match(problem["input"]):
+        case "float_type" | "int_type" if _is_number(problem["input"]):
             key = f"{key} = {_shown(problem['input'])}"
-            message = "is text to YAML; write a number with a point, as 0.001 or 1.0e-3"
+            message = (
+                "is text, not a number. In a file write it without quotes, and with a point, as 1.0e-3; "
+                "in braces after `--config` all is text: use an overlay"
+            )
         case "union_tag_not_found":
             message = f"the key {problem['ctx']['discriminator']} is missing"
         case "union_tag_invalid":
@@ -44,6 +47,10 @@ def describe(error: ValidationError, values: Any) -> str:
         case _:
             key = f"{key} = {_shown(problem['input'])}"
     return f"{key + ': ' if key else ''}{message}" + (f" (and {more} more)" if more else "")
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, str) and _NUMBER.match(value) is not None
 
 
 def _key(problem: Any, values: Any) -> str:
@@ -70,14 +77,15 @@ def place_of(message: str, files: Iterable[str | Path], values: Any) -> str:
     """
     path, unknown = _FIRST_KEY.match(message).groups()
     keys = [key for key in [*(path or "").split("."), unknown] if key]
-    depth, place = 0, ""
+    depth, place, overridden = 0, "", False
     for file in files:
         path = Path(file)
         with path.open(encoding="utf-8") as content:
             matched, line = _depth(yaml.compose(content, LOADER), keys, values)
+        overridden |= matched is None
         if matched and matched >= depth:
             depth, place = matched, f" [{_relative(path)}, line {line}]"
-    return place
+    return "" if overridden and depth < len(keys) else place
 
 
 def _relative(path: Path) -> Path:
@@ -85,8 +93,8 @@ def _relative(path: Path) -> Path:
     return path.relative_to(here) if path.is_relative_to(here) else path
 
 
-def _depth(node: yaml.Node | None, keys: Sequence[str], values: Any) -> tuple[int, int]:
-    """Depth of the keys below a node, and line of the last; 0 where another file's value counts."""
+def _depth(node: yaml.Node | None, keys: Sequence[str], values: Any) -> tuple[int | None, int]:
+    """Depth of the keys below a node, and line of the last; None where another value counts."""
     depth, line = 0, 0
     for key in keys:
         if isinstance(node, yaml.MappingNode):
@@ -102,7 +110,7 @@ def _depth(node: yaml.Node | None, keys: Sequence[str], values: Any) -> tuple[in
         depth, line = depth + 1, name.start_mark.line + 1
     if isinstance(node, yaml.ScalarNode) and not isinstance(values, dict | list):
         same = yaml.safe_load(yaml.serialize(node)) == values
-        return (depth, line) if same else (0, 0)
+        return (depth, line) if same else (None, 0)
     return depth, line
 
 

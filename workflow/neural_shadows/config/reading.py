@@ -155,15 +155,26 @@ def read_config(values: dict[str, Any], files: Sequence[str | Path] = ()) -> Con
         raise InputError(f"config: {message}{place_of(message, files, values)}") from error
 
 
-def check_files(config: Config) -> None:
+def check_files(config: Config, files: Iterable[str | Path] = (), values: Any = None) -> None:
     """Check that configured files exist.
 
     Snakemake does not check inputs of an existing result.
+
+    Args:
+        files, values: of `read_config`, for a message's place.
 
     Raises:
         InputError: a mesh, a frame folder or weights are missing, a mesh has an unknown suffix, or the
             folder of results or reports is a link to nothing; one line with the key.
     """
+    try:
+        _check_files(config)
+    except InputError as error:
+        place = place_of(str(error).removeprefix("config: "), files, values)
+        raise InputError(f"{error}{place}") from error
+
+
+def _check_files(config: Config) -> None:
     for folder in (Path("results"), Path("reports")):
         for path in (folder, folder / config.scale):
             if path.is_symlink() and not path.exists():
@@ -187,9 +198,10 @@ def check_files(config: Config) -> None:
     for name, frames in config.frame_sets.items():
         missing = without_frames(frames) if isinstance(frames, OwnFrames) else None
         if missing is not None:
+            described = "results" if frames.engine is None else "config"
             raise InputError(
                 f"config: frame_sets.{name}.path = {frames.path!r}: {missing}. "
-                "results/README.md describes the format"
+                f"{described}/README.md describes the format"
             )
     for name, experiment in config.screen_experiments.items():
         if experiment.weights is not None:
@@ -199,7 +211,9 @@ def check_files(config: Config) -> None:
             continue
         trunk = getattr(config.training_of(name).perceptual, "trunk", None)
         if trunk is not None:
-            _check_file(f"experiments.{name}: perceptual.trunk", trunk)
+            named = experiment.training if isinstance(experiment.training, str) else None
+            key = f"trainings.{named}" if named else f"experiments.{name}.training"
+            _check_file(f"{key}.perceptual.trunk", trunk)
     if config.metrics.lpips.trunk is not None:
         _check_file("metrics.lpips.trunk", config.metrics.lpips.trunk)
 

@@ -2,8 +2,9 @@
 
 import re
 from collections.abc import Iterable, Mapping
-from pathlib import Path
+from pathlib import Path, PurePath
 
+from neural_shadows.config.whole import RESERVED_TABLES
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.registry import FRAME_METHODS
 from neural_shadows.sections.frame_tables import check_method
@@ -23,14 +24,7 @@ def check_targets(targets: Iterable[str], config: Sections, folder: Path) -> Non
     """
     scales = _scales(folder)
     for target in targets:
-        top, _, rest = target.partition("/")
-        scale = rest.partition("/")[0]
-        if top in ("reports", "results") and "/" in rest and scale in scales:
-            if scale != config.scale:
-                raise InputError(
-                    f"{target}: has the scale {scale!r}, and this run {config.scale!r}. Add "
-                    f"`--configfile {scales[scale]}` after the targets"
-                )
+        _check_scale(target, config, scales)
         _check_answers(target, config)
         for section, ending in (("tables", "csv"), ("figures", "png"), ("viewers", "html")):
             if target in getattr(config, section):
@@ -39,6 +33,27 @@ def check_targets(targets: Iterable[str], config: Sections, folder: Path) -> Non
                     f"{target}: is an entry of `{section}`, not a file. Use "
                     f"{below}/{target}.{ending}"
                 )
+
+
+def _check_scale(target: str, config: Sections, overlays: Mapping[str, str]) -> None:
+    """Check that a target is in the run's folder."""
+    top, _, rest = target.partition("/")
+    folder = rest.partition("/")[0] if "/" in rest else "desk"
+    if top not in ("reports", "results") or folder == config.scale:
+        return
+    if folder != "desk" and folder in overlays:
+        raise InputError(
+            f"{target}: has the scale {folder!r}, and this run {config.scale!r}. Add "
+            f"`--configfile {overlays[folder]}` after the targets"
+        )
+    # Of the others only reports: as a module, a workflow has targets of its own.
+    name = PurePath(rest).stem
+    if top == "reports" and name in (*RESERVED_TABLES, *config.tables, *config.figures):
+        own = "reports" if config.scale == "desk" else f"reports/{config.scale}"
+        raise InputError(
+            f"{target}: this run has the scale {config.scale!r}. Use {own}/{PurePath(rest).name}"
+            + (f", or add `--config scale={folder}` after the targets" if folder != "desk" else "")
+        )
 
 
 def _check_answers(target: str, config: Sections) -> None:

@@ -82,7 +82,6 @@ class MethodsTable(FramesTable):
     def check(self, config: Sections, key: str) -> None:
         """Check methods against the frame set."""
         frames = config.frame_sets[self.frame_set]
-        own = isinstance(frames, OwnFrames)
         names = [*FRAME_METHODS, *config.screen_experiments, *config.networks_by_scene]
         methods = self.methods_shown()
         for method in methods:
@@ -92,12 +91,6 @@ class MethodsTable(FramesTable):
             check_among(f"{key}.methods", method, names)
             if methods.count(method) > 1:
                 raise ValueError(f"{key}.methods: {method!r} is listed twice. List it once")
-            if own and frame_method(method).needs_scene:
-                bases = ", ".join(name for name, base in FRAME_METHODS.items() if base.channel)
-                raise ValueError(
-                    f"{key}.methods: {method!r} needs the scene's geometry, and a user's own frames have "
-                    f"none. Allowed: {bases}, and networks"
-                )
         super().check(config, key)
         if self.needs_sequence() and not getattr(frames, "sequence", 0):
             raise ValueError(
@@ -129,7 +122,7 @@ def check_method(config: Sections, key: str, frame_set: str, method: str) -> Non
 
     Raises:
         ValueError: a network is trained on smaller lights, or on radii in another unit; or the
-            user's own frames lack a channel.
+            user's own frames lack a channel, or the scene that the method needs.
     """
     if method in config.networks_by_scene:
         networks = config.networks_by_scene[method].experiments
@@ -139,6 +132,12 @@ def check_method(config: Sections, key: str, frame_set: str, method: str) -> Non
         _check_network(config, key, frame_set, experiment)
     frames = config.frame_sets[frame_set]
     if isinstance(frames, OwnFrames):
+        if not networks and frame_method(method).needs_scene:
+            bases = ", ".join(name for name, base in FRAME_METHODS.items() if base.channel)
+            raise ValueError(
+                f"{key} needs the scene's geometry, and a user's own frames have none. Allowed: {bases}, "
+                "and networks"
+            )
         features = (config.network_of(experiment).features for experiment in networks)
         buffers = [buffer for names in features for buffer in buffers_of(names)]
         if {*TRACED} & {*buffers}:

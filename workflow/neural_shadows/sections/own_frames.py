@@ -107,7 +107,7 @@ def without_frames(frames: OwnFrames) -> str | None:
     if frames.engine is None:
         return None if own_parts(frames) else "no SCENE/test_000.json in it"
     empty = [scene for scene in frames.engine.sizes if scene not in own_parts(frames)]
-    return f"no frame in {empty[0]}/, such as {empty[0]}/FRAME/z.exr" if empty else None
+    return f"no frame in {empty[0]}/, as FRAME/FILE.exr or .npz" if empty else None
 
 
 def lacking(frames: OwnFrames, buffers: Iterable[str]) -> str | None:

@@ -65,13 +65,13 @@ class RowsTable(AnyTable):
             if not scene:
                 raise ValueError(f"{key}: has shadow maps only. Add `scene`")
             for row in rows:
-                self._check_row(config, f"{key}.rows of {scene}", scene, row)
+                self._check_row(config, f"{key}.rows: of {scene}", scene, row)
             resolved = [row_of(config, scene, row) for row in rows]
             for part in ("method", "label"):
                 for value, count in Counter(row[part] for row in resolved).items():
                     if count > 1:
                         raise ValueError(
-                            f"{key}.rows of {scene}: {value!r} is listed twice. List it once"
+                            f"{key}.rows: of {scene}: {value!r} is listed twice. List it once"
                         )
             against = getattr(self, "against", None)
             against = against.get(scene) if isinstance(against, dict) else against

@@ -149,7 +149,7 @@ class Sections(Model):
             return label.format(**settings)
         except (LookupError, ValueError, TypeError, AttributeError) as error:
             raise ValueError(
-                f"the label {label!r} of {experiment}: braces must name a setting of "
+                f"experiments.{experiment}.label: {label!r}: braces must name a setting of "
                 f"its network or training. Allowed: {', '.join(settings)}"
             ) from error
 

@@ -30,7 +30,8 @@ class SoftViewer(Model):
         description="whose largest radius the light can have, and whose field of view the camera has"
     )
     networks: list[ScreenExperimentName] = Field(
-        [], description="experiments on frames, of a sphere's light and a cube map"
+        [],
+        description="experiments on frames, of forms with a shader (`viewer` of the thesis's networks: by `encoding`)",
     )
     triangles: int = Field(
         60_000, ge=100, le=500_000, description="most triangles shown; objects are decimated to it"

@@ -19,6 +19,8 @@ from pydantic import (
 )
 from pydantic_core import PydanticCustomError
 
+MOST_LISTED = 20  # names in a message
+
 
 class Model(BaseModel):
     """Base of all sections, without unknown keys or implicit conversions."""
@@ -32,6 +34,11 @@ class Model(BaseModel):
             if key not in cls.model_fields:
                 # pydantic's own error does not list the allowed keys.
                 context = {"key": not_among(str(key), cls.model_fields)}
+                kind = cls.model_fields.get("kind")
+                if kind and kind.default == values.get("kind", kind.default):
+                    context["key"] += (
+                        f" (of the default `kind: {kind.default}`; others have others)"
+                    )
                 raise PydanticCustomError("unknown_key", "unknown key: {key}", context)
         return values
 
@@ -39,6 +46,9 @@ class Model(BaseModel):
 def not_among(value: str, allowed: Iterable[str]) -> str:
     """Message about an unknown value, with suggestion and allowed values."""
     names = list(allowed)
+    if len(names) > MOST_LISTED:  # its family first
+        start = value.split("_")[0]
+        names.sort(key=lambda name: not name.startswith(start))
     close = get_close_matches(value, names, 1)
     meant = f" (did you mean {close[0]!r}?)" if close else ""
     if not names:
@@ -47,7 +57,7 @@ def not_among(value: str, allowed: Iterable[str]) -> str:
 
 
 def _listed(names: list[str]) -> str:
-    return ", ".join(names[:20]) + (", …" if len(names) > 20 else "")
+    return ", ".join(names[:MOST_LISTED]) + (", …" if len(names) > MOST_LISTED else "")
 
 
 def check_among(key: str, value: str, allowed: Iterable[str]) -> None:

@@ -20,15 +20,10 @@ from neural_shadows.networks.screen_space.layers import (
 )
 from neural_shadows.networks.screen_space.screen_network import ScreenNetwork
 from neural_shadows.networks.screen_space.shadow_unet import ShadowUnet
+from neural_shadows.networks.settings.screen_space import SHADED
 from neural_shadows.viewer.balanced_unet import balanced
 from neural_shadows.viewer.packed import packed
 
-# What the shaders evaluate; first the default.
-SHOWN = {
-    "form": ("kernels", "shuffle", "half", "full", "direct"),
-    "ends": ("half",),
-    "answer": ("visibility",),
-}
 _ENTRANCES = {SquaresAsChannels: "SQUARES", Halved: "MEANS"}
 _MOST_HALF = torch.finfo(torch.float16).max
 
@@ -98,7 +93,7 @@ def with_half_weights(network: ScreenNetwork) -> ScreenNetwork:
 
 
 def _check(settings: Mapping[str, Any]) -> None:
-    for key, shown in SHOWN.items():
+    for key, shown in SHADED.items():
         value = settings.get(key, shown[0])
         if value not in shown:
             raise InputError(

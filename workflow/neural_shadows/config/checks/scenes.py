@@ -17,7 +17,7 @@ def check(config: Sections) -> None:
         if name not in used:
             raise ValueError(
                 f"{key}: is in no frame set and no viewer. Add it to `unseen` (or `scenes`, for training) of "
-                "one of `frame_sets`, or remove it: `null`"
+                "one of `frame_sets` (a list replaces the whole: repeat its names), or remove it: `null`"
             )
         _check_arrangement(key, scene)
 

@@ -1,6 +1,7 @@
 """Checks of `viewers`."""
 
 from neural_shadows.networks.kind_module import ENCODINGS
+from neural_shadows.networks.settings.screen_space import SHADED
 from neural_shadows.sections.frame_sets import RenderedFrames
 from neural_shadows.sections.sections import Sections
 from neural_shadows.sections.viewers import HardViewer, SoftViewer
@@ -28,6 +29,15 @@ def _check_soft(config: Sections, key: str, viewer: SoftViewer) -> None:
             f"{key}.frame_set: {viewer.frame_set!r} has no sphere as its light. Name a rendered frame set "
             "with one"
         )
+    for name in viewer.networks:
+        network = config.network_of(name)
+        for part, shown in SHADED.items():
+            value = getattr(network, part, shown[0])
+            if value not in shown:
+                raise ValueError(
+                    f"{key}.networks: {name!r} has {part}: {value}, without a shader. Allowed: "
+                    f"{', '.join(shown)}"
+                )
 
 
 def _check_hard(config: Sections, key: str, viewer: HardViewer) -> None:

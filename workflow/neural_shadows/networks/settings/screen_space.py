@@ -8,6 +8,12 @@ from neural_shadows.frames.feature_names import FEATURES
 from neural_shadows.settings.base import Model, not_among
 
 BEHIND = "behind"
+# What the viewer's shaders evaluate (workflow/report/viewer/shaders); first the default.
+SHADED = {
+    "form": ("kernels", "shuffle", "half", "full", "direct"),
+    "ends": ("half",),
+    "answer": ("visibility",),
+}
 Channels = Annotated[int, Field(ge=1, le=4096)]
 # Mid and out: outputs of the 3 × 3 convolution, and of the 1 × 1 behind it.
 Pair = Annotated[list[Channels], Field(min_length=2, max_length=2)]
