@@ -26,6 +26,7 @@ experiments.twin | {like: dragon} | experiments.twin: equals experiments.dragon
 tables.maps | {rows: [shadow_map_64], title: x} | tables.maps: has shadow maps only. Add `scene`
 tables.table_4_3.rows.0 | dragn | tables.table_4_3.rows: of dragon: 'dragn' (did you mean 'dragon
 tables.table_4_3.rows.0 | shadow_map_512 | 'shadow_map_512' is listed twice
+tables.table_4_3.rows.0 | fence | tables.table_4_3.rows: of dragon: 'fence' has the scene 'fence'. Name one of dragon
 tables.table_4_3.rows.0 | {method: dragon_64, published: netwrk} | tables.table_4_3: published: 'netwrk' (did you mean 'network'?)
 tables.beyond.rows.dragon.0 | {method: ray_traced, published: network} | tables.beyond: has rows with `published`: 'network', and none itself
 tables.beyond.against | {city: dragon} | tables.beyond.against: 'city' is not among dragon, fence

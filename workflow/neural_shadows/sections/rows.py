@@ -87,6 +87,9 @@ class RowsTable(AnyTable):
         allowed = [name for name in names if config.ray_experiments[name].scene == scene]
         if row.method in config.screen_experiments:
             raise ValueError(f"{key}: {of_another_kind(row.method, RAYS, allowed)}")
+        if row.method in names and row.method not in allowed:
+            other = config.ray_experiments[row.method].scene
+            raise ValueError(f"{key}: {row.method!r} has the scene {other!r}. Name one of {scene}")
         check_among(key, row.method, [*self.classic_allowed(row), *allowed])
 
     def classic_allowed(self, row: RowSettings) -> list[str]:
