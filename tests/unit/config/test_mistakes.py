@@ -50,7 +50,7 @@ viewers.viewer_soft.networks | [dragon] | viewers.viewer_soft.networks.0: 'drago
 viewers.viewer_soft.networks | [kpnsm_full_ends] | viewers.viewer_soft.networks: 'kpnsm_full_ends' has ends: full, without a shader. Allowed: half
 viewers.viewer_soft.networks | [nsm_exponential] | 'nsm_exponential' has answer: exponent, without a shader
 tables.t | {title: t, frame_set: frames, methods: [hard]} | tables.t: unknown key: 'frame_set' is not among
-tables.t | {title: t, frame_set: frames, methods: [hard]} | (of the default `kind: comparison`; others have others)
+tables.t | {title: t, frame_set: frames, methods: [hard]} | (keys of `kind: comparison`, the default)
 tables.soft_methods.methods | [rt_3_svgf] | is not among rt_1_svgf, rt_2_svgf, rt_4_svgf
 experiments.dragon.label | "{stepz}" | experiments.dragon.label: '{stepz}': braces must name a setting
 claims.sampling.pairs | [[shadow_map_8, shadow_map_4]] | no experiment among them. Add one

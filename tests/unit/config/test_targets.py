@@ -14,6 +14,7 @@ from neural_shadows.errors import InputError
     [
         ("teapot", "reports/table_4_3.csv", "scale 'teapot'. Use reports/teapot/table_4_3.csv$"),
         ("teapot", "reports/claims.csv", "Use reports/teapot/claims.csv$"),
+        ("teapot", "reports/viewer.html", "Use reports/teapot/viewer.html$"),
         ("desk", "reports/mine/table_4_3.csv", "Use reports/table_4_3.csv, or add .* scale=mine"),
         ("desk", "reports/smoke/table_4_3.csv", "Add `--configfile config/smoke.yaml`"),
         ("desk", "table_4_3", "is an entry of `tables`, not a file. Use reports/table_4_3.csv"),

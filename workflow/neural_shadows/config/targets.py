@@ -47,8 +47,8 @@ def _check_scale(target: str, config: Sections, overlays: Mapping[str, str]) -> 
             f"`--configfile {overlays[folder]}` after the targets"
         )
     # Of the others only reports: as a module, a workflow has targets of its own.
-    name = PurePath(rest).stem
-    if top == "reports" and name in (*RESERVED_TABLES, *config.tables, *config.figures):
+    entries = *config.tables, *config.figures, *config.viewers
+    if top == "reports" and PurePath(rest).stem in (*RESERVED_TABLES, *entries):
         own = "reports" if config.scale == "desk" else f"reports/{config.scale}"
         raise InputError(
             f"{target}: this run has the scale {config.scale!r}. Use {own}/{PurePath(rest).name}"

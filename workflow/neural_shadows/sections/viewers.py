@@ -31,7 +31,7 @@ class SoftViewer(Model):
     )
     networks: list[ScreenExperimentName] = Field(
         [],
-        description="experiments on frames, of forms with a shader (`viewer` of the thesis's networks: by `encoding`)",
+        description="experiments on frames, of a form, `ends` and `answer` with a shader",
     )
     triangles: int = Field(
         60_000, ge=100, le=500_000, description="most triangles shown; objects are decimated to it"

@@ -35,10 +35,8 @@ class Model(BaseModel):
                 # pydantic's own error does not list the allowed keys.
                 context = {"key": not_among(str(key), cls.model_fields)}
                 kind = cls.model_fields.get("kind")
-                if kind and kind.default == values.get("kind", kind.default):
-                    context["key"] += (
-                        f" (of the default `kind: {kind.default}`; others have others)"
-                    )
+                if kind and isinstance(kind.default, str):
+                    context["key"] += f" (keys of `kind: {kind.default}`, the default)"
                 raise PydanticCustomError("unknown_key", "unknown key: {key}", context)
         return values
 
