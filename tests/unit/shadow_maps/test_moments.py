@@ -12,7 +12,6 @@ from neural_shadows.shadow_maps.moments import (
     hamburger_blockers,
     hamburger_visibility,
     powers,
-    variance_blockers,
     variance_visibility,
     warped,
 )
@@ -82,22 +81,24 @@ def test_filters_keep_the_mean_and_what_is_within():
         assert np.allclose(found, whole[rim : 24 - rim, rim : 31 - rim], rtol=1e-13, atol=0)
 
 
-@pytest.mark.parametrize(("count", "blockers"), [(2, variance_blockers), (4, hamburger_blockers)])
 @pytest.mark.parametrize("share", [0.1, 0.5, 0.9])
-def test_blockers_before_a_receiver_in_the_distribution(count, blockers, share):
+def test_blockers_before_a_receiver_in_the_distribution(share):
     """Of two depths, the receiver's the farther, the mean before it is the nearer."""
-    moments = mixed(lambda depth: powers(depth, count), [0.3, 0.6], [share, 1 - share])
-    assert blockers(moments, np.array([0.6])) == pytest.approx(0.3, abs=0.01)
+    moments = mixed(lambda depth: powers(depth, 4), [0.3, 0.6], [share, 1 - share])
+    assert hamburger_blockers(moments, np.array([0.6]), 1e-3) == pytest.approx(0.3, abs=0.01)
 
 
-def test_four_moments_know_blockers_at_two_depths():
-    """Two moments take what is behind them for the receiver's, and err."""
-    moments = mixed(lambda depth: powers(depth, 4), [0.2, 0.4, 0.8], [0.3, 0.3, 0.4])
-    assert hamburger_blockers(moments, np.array([0.8])) == pytest.approx(0.3, abs=0.01)
+def test_blockers_at_two_depths_have_their_mean():
+    moments = mixed(lambda depth: powers(depth, 4), [0.2, 0.4, 0.8], [0.1, 0.3, 0.6])
+    assert hamburger_blockers(moments, np.array([0.8]), 1e-3) == pytest.approx(0.35, abs=0.01)
 
 
-@pytest.mark.parametrize("blockers", [variance_blockers, hamburger_blockers])
-def test_without_blockers_it_is_the_receiver(blockers):
-    count = 2 if blockers is variance_blockers else 4
-    moments = mixed(lambda depth: powers(depth, count), [0.5, 0.8], [0.5, 0.5])
-    assert blockers(moments, np.array([0.4])) == pytest.approx(0.4, abs=1e-3)
+def test_without_blockers_their_depth_is_the_receivers():
+    moments = mixed(lambda depth: powers(depth, 4), [0.5, 0.8], [0.5, 0.5])
+    assert hamburger_blockers(moments, np.array([0.4]), 1e-3) == pytest.approx(0.4, abs=1e-3)
+
+
+def test_few_blockers_count_less_the_larger_the_least_share():
+    """As many as that share: half of the way to the receiver's depth."""
+    moments = mixed(lambda depth: powers(depth, 4), [0.2, 0.8], [0.1, 0.9])
+    assert hamburger_blockers(moments, np.array([0.8]), 0.1) == pytest.approx(0.5, abs=0.01)

@@ -51,7 +51,7 @@ def test_any_width_of_a_constant_depth(kind):
 
 
 def test_a_window_has_the_area_of_its_disc():
-    """Texels whose directions lie within the disc, in the middle and in a corner."""
+    """Texels whose directions lie within the disc, in the middle and towards a corner (4 % more)."""
     light_map, tangent = perspective_map(np.zeros(3), np.array([0, 0, 1.0]), 90.0, 256), 0.1
     for place in (128 * 256 + 128, 48 * 256 + 208):
         centre = light_map.directions_of(np.array([place]))
@@ -59,4 +59,4 @@ def test_a_window_has_the_area_of_its_disc():
         cosines = light_map.directions_of(np.arange(light_map.count)) @ centre[0]
         within = np.sum(np.sqrt(1 / cosines[cosines > 0] ** 2 - 1) < tangent)
         along = view.sides(np.array([tangent]))[0]
-        assert along.prod() == pytest.approx(within, rel=0.02 if place == 128 * 257 else 0.25)
+        assert along.prod() == pytest.approx(within, rel=0.06)

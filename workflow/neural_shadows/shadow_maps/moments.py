@@ -11,8 +11,6 @@ import numpy as np
 from numba import njit
 
 LEAST_VARIANCE = 1e-6
-# Share of blockers below which their mean depth, a quotient of small numbers, gives way to the receiver's.
-LEAST_HIDDEN = 1e-3
 # Towards (½, ½, ½, ½), for moments of 32 bits. Of 16 they need 3e-5, which here doubles the light that
 # leaks into the dark of windows without an area (gallery 1.30 % for 0.66, hall 1.17 for 0.67).
 MOMENT_BIAS = 3e-7
@@ -89,20 +87,6 @@ def variance_visibility(moments: np.ndarray, depth: np.ndarray) -> np.ndarray:
     return (variance / (variance + behind**2)).astype(np.float32)
 
 
-def variance_blockers(moments: np.ndarray, depth: np.ndarray) -> np.ndarray:
-    """Mean depth of what is before depths (n,), by two moments (n, 2): (n,) float64.
-
-    By a distribution of two depths, one the receiver's (Yang et al. 2010, equation 5). It goes to the
-    receiver's as less is before it.
-    """
-    mean = moments[:, 0]
-    variance = np.maximum(moments[:, 1] - mean**2, LEAST_VARIANCE)
-    behind = np.maximum(depth - mean, 0)
-    shadow = behind**2 / (variance + behind**2)
-    total = shadow * mean - behind * variance / (variance + behind**2)
-    return (LEAST_HIDDEN * depth + total) / (LEAST_HIDDEN + shadow)
-
-
 def warped(depth: np.ndarray) -> np.ndarray:
     """Two exponentials of depth and their squares (EVSM), (…, 4) float64."""
     place = 2 * np.asarray(depth, np.float64) - 1
@@ -136,16 +120,17 @@ def hamburger_visibility(moments, depth):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def hamburger_blockers(moments, depth):
+def hamburger_blockers(moments, depth, least):
     """Mean depth of what is before depths (n,), by four moments (n, 4): (n,) float64.
 
-    By the same three depths (Peters et al. 2017, 4.1). It goes to the receiver's as less is before it.
+    By the same three depths (Peters et al. 2017, 4.1). Where hardly more than a share `least` is before the
+    receiver, a mean of small numbers, it goes to the receiver's depth.
     """
     blockers = np.empty(len(depth))
     for i in range(len(depth)):
         z = np.float64(depth[i])
         shadow, total = _hidden(moments[i], z)
-        blockers[i] = (LEAST_HIDDEN * z + total) / (LEAST_HIDDEN + shadow)
+        blockers[i] = (least * z + total) / (least + shadow)
     return blockers
 
 

@@ -91,7 +91,7 @@ def test_soft_shadows_of_a_sphere(frame, target):
     }
     # One blocker at one height, whose penumbra is 9 texels wide.
     assert errors["pcss"] < 1e-4 and errors["pcf_disc"] < 1e-4
-    assert errors["pcss_post"] < 3e-4 and errors["vssm"] < 1e-4 and errors["mssm"] < 1e-4
+    assert errors["pcss_post"] < 3e-4 and errors["mssm"] < 1e-4
     for family in ("pcf", "vsm", "msm"):
         assert 2 * errors[f"{family}_9"] < errors[f"{family}_3"] < errors["hard"]
     assert errors["evsm_9"] < errors["vsm_3"]
@@ -125,7 +125,7 @@ def cube_frame(frame):
     return SoftFrame(frame.scene, frame.surface, CENTRE, cube_map(CENTRE, 512))
 
 
-@pytest.mark.parametrize("key", ["hard", "pcf_9", "pcss", "msm_9", "vssm", "mssm"])
+@pytest.mark.parametrize("key", ["hard", "pcf_9", "pcss", "msm_9", "mssm"])
 def test_a_cube_tells_what_a_picture_does(key, frame, cube_frame):
     constants = settings_of(METHODS[key])[0]
     found = [METHODS[key].answer(of, RADIUS, **constants) for of in (cube_frame, frame)]

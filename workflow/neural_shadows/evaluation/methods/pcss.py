@@ -55,7 +55,7 @@ def _filtered(surface: "Surface", shares: np.ndarray, *, width: float) -> np.nda
 
 # One after another; in this order the errors under the sun's and the panel's lights are those of all 288
 # settings. With `nearest` first, as it was, one of six was 2 % larger.
-_CONSTANTS = {
+CONSTANTS = {
     "bias": (0.1, 0.3, 1.0, 3.0),
     "scale": (0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0),
     "nearest": (0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9),
@@ -63,7 +63,7 @@ _CONSTANTS = {
 # The filter's standard deviation in pixels; 0 is no filter. With 1.5 throughout, windows of a tree had
 # 3.8 times the error that PCSS has alone.
 _WIDTHS = {"width": (0.0, 0.35, 0.5, 0.7, 1.0, 1.5, 2.2)}
-_PCSS = Method(_visibility, _CONSTANTS, "PCSS")
+_PCSS = Method(_visibility, CONSTANTS, "PCSS")
 _FINE = replace(_PCSS, label="PCSS, map of 2048²", resolution=2048)
 
 

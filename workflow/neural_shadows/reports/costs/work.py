@@ -225,8 +225,7 @@ WORDS |= {
     "fast": -2.8,
     "spread": 0.8,
     "disc": 0.6,
-    "vssm": 0.7,
-    "mssm": 0.8,
+    "mssm": 1.2,
 }
 COUNTED = {"cone": 0.3, "field": 0.7, "pcf": 0.02}
 OTHER = 0.05
