@@ -90,7 +90,7 @@ def _depths(
 
 
 # At 0.0001 the error under the largest light of `windows` was 1.2 times that at 0.01.
-_LEAST = {"least": (0.001, 0.003, 0.01, 0.03, 0.1)}
+_LEAST = {"least": (0.003, 0.01, 0.03, 0.1, 0.3)}
 METHODS = {
     # A table's sums are float64: of as many bytes as eight float32.
     "mssm": Method(_visibility, pcss.CONSTANTS | fixed.CONSTANTS | _LEAST, "MSSM", texel_floats=8)
