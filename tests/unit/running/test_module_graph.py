@@ -1,5 +1,7 @@
 """A stage's modules are those that it needs: an edited plot must not retrain a network."""
 
+import ast
+
 import pytest
 
 from neural_shadows.networks.kind_module import ENCODINGS, FORMS, form_module, kind_module
@@ -120,6 +122,42 @@ def test_a_digest_is_of_names_and_content_and_not_of_where_they_lie(tmp_path, mo
     first = of("first", a="1", b="2")
     assert first == of("again", a="1", b="2")
     assert len({first, of("content", a="1", b="3"), of("name", a="1", c="2")}) == 3
+
+
+def test_a_digest_is_of_no_comment_and_no_docstring(tmp_path, monkeypatch):
+    monkeypatch.setattr(module_graph, "PACKAGE", tmp_path)
+
+    def of(name, text):
+        (tmp_path / name).mkdir()
+        path = tmp_path / name / "module.py"
+        path.write_text(text)
+        return module_graph._content(path).split()[1]
+
+    code = 'def f():\n    """{}"""\n    {}\n    return """\n{}\n"""\n'
+    first = of("first", code.format("One.", "# one", "x"))
+    assert first == of("words", code.format("Two.\n\n    More.\n    ", "# two", "x"))
+    assert first != of("text", code.format("One.", "# one", "y"))
+
+
+@pytest.mark.parametrize("room", sorted(p.parent for p in PACKAGE.glob("*/__init__.py")))
+def test_what_a_digest_leaves_out_is_not_code(room):
+    """As Python itself reads it: of each module the rest means the same."""
+    for path in room.rglob("*.py"):
+        text = path.read_text("utf-8")
+        assert _meaning(module_graph._code(text)) == _meaning(text), path
+
+
+def _meaning(text):
+    tree = ast.parse(text)
+    for node in ast.walk(tree):
+        if isinstance(body := getattr(node, "body", None), list):
+            node.body = [statement for statement in body if not _is_text(statement)]
+    return ast.dump(tree)
+
+
+def _is_text(statement):
+    value = getattr(statement, "value", None)
+    return isinstance(statement, ast.Expr) and isinstance(getattr(value, "value", None), str)
 
 
 def test_kernels_need_no_report_and_no_kind():

@@ -33,6 +33,11 @@ _IMPORT = re.compile(
     re.MULTILINE,
 )
 
+_COMMENT = re.compile(
+    r"^[ \t]*#(?!#).*\n", re.MULTILINE
+)  # on a line of its own; ## is a text's heading
+_DOCSTRING = re.compile(r'^([ \t]*)"""(?=[\w`]).*?"""[ \t]*$', re.MULTILINE | re.DOTALL)
+
 # Of annotations alone, which no result depends on.
 _TYPES = re.compile(r"^if TYPE_CHECKING:.*\n(?:(?:[ \t]+.*)?\n)+", re.MULTILINE)
 
@@ -83,7 +88,7 @@ def modules_of(stage: Path) -> list[Path]:
 
 
 def digest(modules: Iterable[Path]) -> str:
-    """Of modules' names and content, 16 hexadecimal digits."""
+    """Of modules' names and code, 16 hexadecimal digits: edited words rerun nothing."""
     content = hashlib.sha256()
     for module in _sorted(modules):
         content.update(_content(module))
@@ -97,7 +102,12 @@ def _sorted(paths: Iterable[Path]) -> list[Path]:
 @cache
 def _content(module: Path) -> bytes:
     """A module's name and a digest of its content, with the C file beside it of its name."""
-    content, in_c = module.read_bytes(), module.with_suffix(".c")
+    content, in_c = _code(module.read_text(encoding="utf-8")).encode(), module.with_suffix(".c")
     if in_c.exists():
         content += in_c.read_bytes()
     return f"{module.relative_to(PACKAGE)} {hashlib.sha256(content).hexdigest()} ".encode()
+
+
+def _code(text: str) -> str:
+    """A module's text with no comment on a line of its own and with empty docstrings."""
+    return _DOCSTRING.sub(r'\1""', _COMMENT.sub("", text))

@@ -11,8 +11,7 @@ from neural_shadows.networks.screen_space.screen_networks import load_screen_net
 from neural_shadows.settings.kinds import kinds
 from neural_shadows.training.restore_weights import check_header
 
-CARD = """\
-# {name}
+CARD = """# {name}
 
 {about} Visibility of area lights from a frame's buffers: {parameters:,} weights, {kib:,.0f} KiB.
 
