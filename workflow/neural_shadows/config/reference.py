@@ -1,4 +1,4 @@
-"""Reference of all configuration keys, from their models."""
+"""Reference of all configuration keys, from their models, and of all methods' keys."""
 
 import re
 from collections.abc import Iterable, Iterator
@@ -7,12 +7,19 @@ from typing import Any, Literal, get_args, get_origin
 from pydantic.fields import FieldInfo
 
 from neural_shadows.config.whole import Config
+from neural_shadows.evaluation.registry import METHODS, family_look
 from neural_shadows.settings.base import Model
 
 HEAD = """# Keys of the configuration
 
 Made from the models by `PYTHONPATH=workflow python -m neural_shadows.config --markdown > config/REFERENCE.md`.
 A key without a default is needed. [README.md](README.md) has examples; editors show the same from the schema.
+"""
+
+METHODS_HEAD = """## Methods of tables
+
+For a table's `methods`: of *frames* under an area light, or of *views* under a sun, where N is a size of your choice, and
+`_biased` behind a key chooses a depth bias on held-out views. Any other key is that of an experiment, a trained network.
 """
 
 
@@ -31,6 +38,7 @@ def markdown() -> str:
         if common:
             parts += ["All have:\n", _table(common)]
         parts += _chapters(models, {*common}, shown)
+    parts += [METHODS_HEAD, _methods()]
     return "\n".join(parts)
 
 
@@ -78,6 +86,17 @@ def _table(fields: dict[str, FieldInfo]) -> str:
     for name, field in fields.items():
         description = (field.description or "").replace("|", "\\|").replace("\n", " ")
         rows.append(f"| `{name}` | {_default(field)} | {description} |")
+    return "\n".join(rows) + "\n"
+
+
+def _methods() -> str:
+    rows = ["| key | method | of | what |", "| --- | --- | --- | --- |"]
+    for key, method in METHODS.items():
+        kinds = {"frames": method.answers_frames, "views": method.answers_views}
+        of = ", ".join(kind for kind, answers in kinds.items() if answers)
+        name = f"{key}_N" if method.sizes else key
+        label = method.label.format("N") if method.sizes else method.label
+        rows.append(f"| `{name}` | {label} | {of} | {family_look(key).sentence} |")
     return "\n".join(rows) + "\n"
 
 

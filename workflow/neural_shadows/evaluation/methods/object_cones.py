@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from neural_shadows.frames.soft_frame import SoftFrame
 
 LOOK = Look(
-    "cones through occupancy fields",
+    "cones through distance fields",
     GREY,
     "h",
     "⬢",

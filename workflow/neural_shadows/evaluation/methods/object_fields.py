@@ -10,7 +10,7 @@ from neural_shadows.evaluation.look import BLACK, Look
 from neural_shadows.evaluation.method import Method, rays_label
 
 LOOK = Look(
-    "rays through occupancy fields",
+    "rays through distance fields",
     BLACK,
     "p",
     "⬟",
