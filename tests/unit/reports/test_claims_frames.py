@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from claim_samples import measured
+from report_samples import BY_MAP
 
 from neural_shadows.reports.claims.frames import SoftTable, soft_values
 from neural_shadows.reports.claims.gates import judge
@@ -20,7 +21,7 @@ OWN_MS = {
     "rt_4": [5.0, 36.0, 36.0],
     "rt_4_svgf": [5.0, 12.0, 12.0],
 }
-RADII = ["0 m", "0.1 m", "0.2 m"]
+RADII = ["point", "0.1 m", "0.2 m"]
 PAIR, EQUAL_TIME = ("pcss", "msm_15"), ("rays_of_equal_time", "pcss")
 OFF = "mse_off_edges"
 SAMPLES = TEXT_SAMPLES["nsm"]
@@ -32,10 +33,10 @@ def table(errors, labels=LABELS, own_ms=None):
     columns = ["scene", "frame", "radius", "metric", "method", "value"]
     values = soft_values(pd.DataFrame(errors, columns=columns).assign(part="test_000"))
     timed = {
-        method: {"ms": ms, "map": "8" if method in PAIR else None}
+        method: BY_MAP | {"ms": ms, "map": "8" if method in PAIR else None}
         for method, ms in (own_ms or {}).items()
     }
-    times = {"maps": {"8": {"ms": 5.0}}, "methods": timed} if own_ms else None
+    times = {"maps": {"8": {"ms": 5.0, "texels": 64}}, "methods": timed} if own_ms else None
     return SoftTable(values, labels, times, RADII)
 
 

@@ -9,7 +9,6 @@ from neural_shadows.layout import frame_methods, frame_sets
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import HELD_OUT, batches, part_names
 from neural_shadows.layout.paths import ALL
-from neural_shadows.rendering.light_shape import UNITS
 from neural_shadows.sections.frame_sets import VIEWS
 
 Row = Mapping[str, Any]
@@ -144,13 +143,6 @@ def shown_scenes(layout: Layout, table: str) -> list[str]:
         case "unseen":
             return layout.frames(settings["frame_set"])["unseen"]
     return frame_sets.measured_scenes(layout, settings["frame_set"])
-
-
-def radii(layout: Layout, table: str) -> list[str]:
-    """Radii of a table's frame set as text."""
-    settings = layout.frames(frame_set(layout, table))
-    unit = UNITS[settings["radius_unit"]]
-    return [f"{radius:.3g} {unit}" for radius in settings["radii"]]
 
 
 def times(layout: Layout, table: str) -> list[str]:

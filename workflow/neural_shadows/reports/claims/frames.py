@@ -20,6 +20,8 @@ from neural_shadows.reports.claims.comparison import Comparison, judged, of_all_
 from neural_shadows.reports.claims.measured import Claim, Measured, needs
 from neural_shadows.reports.data.digits import short
 from neural_shadows.reports.data.frame_means import count_scenes
+from neural_shadows.reports.data.lights import POINT
+from neural_shadows.reports.data.soft_costs import cost
 from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.records import SoftTimes
 
@@ -63,11 +65,10 @@ class SoftTable:
 
         NaN for untimed methods; without a radius the mean over all.
         """
-        timed = self.times["methods"].get(method) if self.times else None
-        if timed is None:
+        if self.times is None:
             return float("nan")
-        own = np.mean(timed["ms"]) if radius is None else timed["ms"][radius]
-        return own + self.times["maps"].get(timed["map"], {"ms": 0.0})["ms"]
+        numbers = range(len(self.radii)) if radius is None else [radius]
+        return float(np.mean([cost(self.times, method, number)["ms"] for number in numbers]))
 
     def errors(self, method: str, metric: str, radius: int | None) -> pd.Series | None:
         """Errors of each frame, if measured; 1 − SSIM."""
@@ -81,7 +82,8 @@ class SoftTable:
 
     def light(self, radius: int | None) -> str:
         """The light of a radius, or all, in words."""
-        return "all lights" if radius is None else self.radii[radius]
+        size = "all lights" if radius is None else self.radii[radius]
+        return "a point light" if size == POINT else size
 
     def rays_within(self, milliseconds: float, radius: int | None) -> str | None:
         """The most rays in a time, if any take `LEAST_OF_TIME` of it: fewer are no rival of its time."""

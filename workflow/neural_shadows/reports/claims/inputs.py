@@ -7,6 +7,7 @@ from neural_shadows.layout import tables
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.report_inputs import Report
 from neural_shadows.reports.claims.claim_kinds import by_kind, kind_of, methods
+from neural_shadows.reports.data.lights import light_sizes
 from neural_shadows.settings.kinds import kinds
 
 FILES = (
@@ -38,7 +39,7 @@ def arguments(layout: Layout) -> dict[str, Any]:
                 "frame_set": tables.frame_set(layout, table),
                 "labels": Report(layout, table, layout.entry("tables", table)).labels(),
                 "scenes": tables.shown_scenes(layout, table),
-                "radii": tables.radii(layout, table),
+                "radii": light_sizes(layout.frames(tables.frame_set(layout, table))),
             }
             for table in sorted(soft_tables - {None})
         },

@@ -4,6 +4,7 @@ Constants are from jobs of the shipped configuration, measured on `REFERENCE`: a
 another machine takes longer or shorter as what `rates` measures there does.
 """
 
+import math
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -257,9 +258,7 @@ def tune(layout: Layout, frame_set: str, group: str, method: str) -> Work:
     pixels = _pixels(layout, frame_set, frame_sets.validations(layout, frame_set))
     tuned = method_of(method)
     counts = [len(values) for values in tuned.constants.values()]
-    tried = 1
-    for count in counts:
-        tried = tried * count if tuned.joint else tried + count
+    tried = math.prod(counts) if tuned.joint else 1 + tuned.rounds * sum(counts)
     if "passes" in tuned.constants:
         tried /= SHARED
     answers = tried * pixels * _lights(layout, frame_set)

@@ -3,6 +3,8 @@
 from neural_shadows.rendering.light_shape import UNITS
 from neural_shadows.settings.records import PartRecord
 
+POINT = "point"
+
 
 def light_names(about: PartRecord) -> list[str]:
     """Names of the lights of a part of a frame set, in order; `about`: its JSON."""
@@ -10,10 +12,10 @@ def light_names(about: PartRecord) -> list[str]:
 
 
 def light_sizes(about: PartRecord) -> list[str]:
-    """Radii of the lights of a part, in words, in order; `about`: its JSON."""
+    """Radii of the lights of a part, in words, in order; `about`: its JSON, or its frame set's settings."""
     unit = unit_of(about)
     space = "" if unit == UNITS["degrees"] else " "
-    return [f"{radius:.3g}{space}{unit}" if radius else "point" for radius in radii_of(about)]
+    return [f"{radius:.3g}{space}{unit}" if radius else POINT for radius in radii_of(about)]
 
 
 def radii_of(about: PartRecord) -> list[float]:
