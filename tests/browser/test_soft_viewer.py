@@ -13,8 +13,10 @@ from PIL import Image
 from soft_viewer_page import NETWORKS, frame_of, images_of, make_soft_viewer
 
 from neural_shadows.denoising.ffx import FfxFilter
+from neural_shadows.evaluation.method import visibility
 from neural_shadows.evaluation.method_parts import scene_fields
-from neural_shadows.evaluation.methods import moments, object_cones, pcf, pcss
+from neural_shadows.evaluation.methods import object_cones, pcf, pcss
+from neural_shadows.evaluation.registry import METHODS
 from neural_shadows.frames.feature_names import FEATURES, TRACED, buffers_of, channels_of
 from neural_shadows.frames.features import named_features
 from neural_shadows.frames.light_size import light_size
@@ -129,9 +131,7 @@ def test_classic_methods(page, data, frame, share):
         "pcss": image(frame, pcss._visibility(frame, radius, nearest=0.5, scale=1.0, bias=1.0)),
         "msm_9": image(
             frame,
-            moments._visibility(
-                frame, radius, kind="msm", size=9, sigma=None, bias=0.1, bleeding=0.1
-            ),
+            visibility(METHODS["msm_9"], frame, radius, {"bias": 0.1, "bleeding": 0.1}),
         ),
         "rays_2": rays,
         "truth": image(frame, ray_traced(frame, radius, samples=RAYS if radius else 1)),
@@ -146,9 +146,9 @@ def test_cones(page, data, frame, share, monkeypatch):
     """Past fields of the page's cells; of a point, rays through them."""
     monkeypatch.setattr(scene_fields, "CELL", FIELD_CELL)
     scene_fields.fields_of.cache_clear()
-    visibility = object_cones.cone_traced(frame, share * data["radius"], walks=8, push=PUSH)
+    cones = object_cones.cone_traced(frame, share * data["radius"], walks=8, push=PUSH)
     shown = answers(page, "cones", asked(data, share))
-    assert_alike(shown, image(frame, visibility), "cones")
+    assert_alike(shown, image(frame, cones), "cones")
     scene_fields.fields_of.cache_clear()
 
 

@@ -85,6 +85,32 @@ def test_no_other_value_of_the_last_constant_is_better(folder):
         assert chosen["texels"] == min(first, key=first.get)
 
 
+def test_the_search_of_a_filtered_method_begins_without_its_filter(folder):
+    """So that its other constants are those of the method alone, and it is no worse than that."""
+    alone, filtered = (tune(folder, method)["radii"] for method in ("pcss", "pcss_post"))
+    for one, other in zip(alone, filtered):
+        assert {**one["constants"], "width": other["constants"]["width"]} == other["constants"]
+        assert other["error"] <= one["error"]
+
+
+@pytest.mark.parametrize(("rounds", "off"), [(1, 0.15), (2, 0.05)])
+def test_a_second_round_chooses_each_constant_anew(folder, monkeypatch, rounds, off):
+    """Of an even grey 0.3 too dark at first: so much brighter by its second constant that the first is off."""
+    frames = [*measured_frames([folder / "validation_000.json"], [])]
+    mean = float(np.concatenate([one.target[1][one.off_edges] for one in frames]).mean())
+    constants = {"grey": (mean - 0.5, mean - 0.3), "more": (0.0, 0.1, 0.45)}
+    even = Method(
+        lambda frame, radius, grey, more: np.full(len(frame.starts), grey + more, np.float32),
+        constants,
+        "Even",
+        rounds=rounds,
+        by_rays=True,
+    )
+    monkeypatch.setitem(METHODS, "pcf_9", even)
+    found = tune(folder, "pcf_9")["radii"][1]["constants"]
+    assert abs(sum(found.values()) - mean) == pytest.approx(off)
+
+
 def evaluate(folder, method):
     target = folder / "frames"
     target.mkdir(exist_ok=True)

@@ -47,7 +47,7 @@ class Method:
         stored_bytes: of a size, in a file as in memory; None if it stores nothing.
         exact: the reference itself.
         joint: constants are searched jointly, and of equal errors the smallest are chosen; else one
-            after another, and the first.
+            after another, and the first. rounds: of those searches, in which all are chosen anew.
         tuned_as: key of the method with its constants, if not its own.
         fields: needs fields fitted to a scene's objects.
         package: a required optional package.
@@ -67,7 +67,7 @@ class Method:
         check_own: of a part of a user's own frames, raises an InputError for unsuitable ones.
         channel: the frame's buffer with its visibility, if stored.
         constant: the visibility of all surfaces facing the light.
-        last: a filter of a surface and visibilities (n,) in screen space, after all else, so that the
+        last: a filter of a surface and its visibilities (n,), after all else, so that in screen space the
             border of surfaces that face away is filtered, too. of_last: its constants among all.
         resolution: texels of a side of the light's map, if not the frame set's.
     """
@@ -80,6 +80,7 @@ class Method:
     stored_bytes: Callable[[int], int] | None = None
     exact: bool = False
     joint: bool = False
+    rounds: int = 1
     tuned_as: str | None = None
     fields: bool = False
     package: str | None = None

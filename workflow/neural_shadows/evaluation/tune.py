@@ -35,8 +35,9 @@ def tune(
     """Find the constants of least error, by radius.
 
     Of frames the mean squared error off the geometry's edges, of views the share of points in error.
-    One constant after another, the others at their best so far, or in the middle: 6 settings of two
-    constants with three values each, instead of all 9; or jointly, see `Method.joint`.
+    One constant after another, the others at their best so far, or where the search begins: 6 settings of
+    two constants with three values each, instead of all 9; as many rounds as `Method.rounds`. Or jointly,
+    see `Method.joint`. It begins in the middle of the candidates, without the method's last filter.
 
     Args:
         frames: validation frames of all scenes, or held-out views of one, which no evaluation uses.
@@ -57,14 +58,14 @@ def tune(
     kind = module_of(KIND, are_views(frames))
     tuned = kind.open_methods(method, inputs)(None)
     candidates = {name: list(values) for name, values in tuned.constants.items()}
-    middle = {name: values[len(values) // 2] for name, values in candidates.items()}
-    by_radius = [{"constants": middle, "at_end": []} for _ in range(kind.count_radii(frames[0]))]
-    for names in [[*candidates]] if tuned.joint else [[name] for name in candidates]:
+    by_radius = [{"constants": _begin(tuned)} for _ in range(kind.count_radii(frames[0]))]
+    ends = [dict.fromkeys(candidates, False) for _ in by_radius]
+    for names in _searched(tuned):
         grid = [dict(zip(names, values)) for values in product(*map(candidates.get, names))]
         tried = [[best["constants"] | values for values in grid] for best in by_radius]
         title = f"tune {' and '.join(names)} of {method}"
         errors = _errors(kind, inputs, tuned, tried, title)
-        for best, settings, terms in zip(by_radius, tried, errors):
+        for best, settings, terms, at_end in zip(by_radius, tried, errors, ends):
             sums = terms.sum(axis=1)
             chosen = _least(settings, sums, names[::-1] if tuned.joint else [])
             best |= {"constants": settings[chosen], "error": sums[chosen]}
@@ -72,17 +73,34 @@ def tune(
                 setting | dict(zip(kind.ERRORS, each))
                 for setting, each in zip(settings, terms.tolist())
             ]
-            ends = [n for n in names if _at_end(n, candidates[n], settings, sums, chosen)]
-            best["at_end"] += ends
-            for name in ends:
-                value = f"{name.replace('_', ' ')}, {settings[chosen][name]}"
-                print(f"{method}: the best {value}, ends the search")  # the table says so, too
+            for name in names:
+                at_end[name] = _at_end(name, candidates[name], settings, sums, chosen)
+    for best, at_end in zip(by_radius, ends):
+        best["at_end"] = [name for name in candidates if at_end[name]]
+        for name in best["at_end"]:
+            value = f"{name.replace('_', ' ')}, {best['constants'][name]}"
+            print(f"{method}: the best {value}, ends the search")  # the table says so, too
     about = {"method": method, "frames": kind.count_frames(frames), "candidates": candidates}
     about |= {"radii": by_radius}
     if sequence:
         in_sequence = replace(inputs, frames=[sequence])
         about["history"] = _with_history(in_sequence, method, candidates, by_radius)
     write_json(constants_json, about | describe_origin())
+
+
+def _begin(method: Method) -> Constants:
+    """Constants at which the search begins; see `tune`."""
+    return {
+        name: values[0 if name in method.of_last else len(values) // 2]
+        for name, values in method.constants.items()
+    }
+
+
+def _searched(method: Method) -> list[list[str]]:
+    """Constants searched together, in turn."""
+    if method.joint:
+        return [[*method.constants]]
+    return [[name] for name in method.constants] * method.rounds
 
 
 def _with_history(

@@ -15,6 +15,7 @@ from neural_shadows.evaluation.method import Method
 
 if TYPE_CHECKING:
     from neural_shadows.frames.soft_frame import SoftFrame
+    from neural_shadows.rendering.surface import Surface
 
 LOOK = Look(
     "filtered moments (VSM, EVSM, MSM)",
@@ -24,10 +25,9 @@ LOOK = Look(
     "Blurs powers of depth before they are looked up.",
 )
 
-# `bias`: times a cone's, which grows with the kernel: half of a slanted receiver's texels lie before
-# it. `bleeding`: visibilities up to it become 0, and those above are rescaled to [0, 1] (Lauritzen
-# 2007).
-CONSTANTS = {"bias": (0.0, 0.03, 0.1, 0.3, 1.0, 3.0), "bleeding": (0.0, 0.05, 0.1, 0.2, 0.3, 0.4)}
+# Times a cone's bias, which grows with the kernel: half of a slanted receiver's texels lie before it.
+BIAS = {"bias": (0.0, 0.03, 0.1, 0.3, 1.0, 3.0)}
+BLEEDING = {"bleeding": (0.0, 0.05, 0.1, 0.2, 0.3, 0.4)}  # see `without_leaks`
 _FLOATS = {"vsm": 2, "evsm": 4, "msm": 4}  # of a texel
 
 
@@ -39,7 +39,6 @@ def _visibility(
     size: int,
     sigma: float | None,
     bias: float,
-    bleeding: float,
 ) -> np.ndarray:
     from neural_shadows.shadow_maps import moments
     from neural_shadows.shadow_maps.filtered_moments import filtered_moments
@@ -63,9 +62,12 @@ def _visibility(
     reach = 0.75 + _spread(kernel)
     cone = receiver_bias(frame.light_map, from_light, frame.cosines, frame.scene.size, reach)
     nearer = distances - np.float32(near) - np.float32(bias) * cone
-    depth = np.maximum(nearer, 0) / (farthest - near)
-    shares = (bound(filtered, depth) - bleeding) / (1 - bleeding)
-    return np.maximum(shares, 0).astype(np.float32)
+    return bound(filtered, np.maximum(nearer, 0) / (farthest - near)).astype(np.float32)
+
+
+def without_leaks(surface: "Surface", shares: np.ndarray, *, bleeding: float) -> np.ndarray:
+    """Visibilities (n,), of which those up to `bleeding` are 0 and those above fill [0, 1] (Lauritzen 2007)."""
+    return np.maximum((shares - np.float32(bleeding)) / np.float32(1 - bleeding), np.float32(0))
 
 
 def _spread(kernel: np.ndarray) -> float:
@@ -85,7 +87,14 @@ def _method(kind: str, size: int, sigma: float | None = None) -> Method:
     visible = partial(_visibility, kind=kind, size=size, sigma=sigma)
     # One constant after the other, errors under a sun and a panel were up to 7 % larger.
     return Method(
-        visible, CONSTANTS, label, joint=True, texel_floats=_FLOATS[kind], of_radius=False
+        visible,
+        BIAS | BLEEDING,
+        label,
+        joint=True,
+        texel_floats=_FLOATS[kind],
+        of_radius=False,
+        last=without_leaks,
+        of_last=(*BLEEDING,),
     )
 
 

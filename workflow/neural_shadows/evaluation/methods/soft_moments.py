@@ -37,7 +37,6 @@ def _visibility(
     bias: float,
     scale: float,
     nearest: float,
-    bleeding: float,
     least: float,
 ) -> np.ndarray:
     from neural_shadows.shadow_maps import moments
@@ -73,7 +72,7 @@ def _visibility(
             blocker = np.clip(near + span * blockers, first[mine], distance)
             sides = view.sides(radius * (1 / blocker - 1 / distance))
         shares[mine] = moments.hamburger_visibility(view.means(sides), depths(sides))
-    return np.maximum((shares - bleeding) / (1 - bleeding), 0).astype(np.float32)
+    return shares
 
 
 def _depths(
@@ -92,6 +91,13 @@ def _depths(
 # At 0.0001 the error under the largest light of `windows` was 1.2 times that at 0.01.
 _LEAST = {"least": (0.003, 0.01, 0.03, 0.1, 0.3)}
 METHODS = {
-    # A table's sums are float64: of as many bytes as eight float32.
-    "mssm": Method(_visibility, pcss.CONSTANTS | fixed.CONSTANTS | _LEAST, "MSSM", texel_floats=8)
+    "mssm": Method(
+        _visibility,
+        pcss.CONSTANTS | fixed.BIAS | _LEAST | fixed.BLEEDING,
+        "MSSM",
+        rounds=2,
+        texel_floats=8,  # a table's sums are float64
+        last=fixed.without_leaks,
+        of_last=(*fixed.BLEEDING,),
+    )
 }
