@@ -120,8 +120,10 @@ def test_an_array_that_is_not_whole(part, tmp_path, left, problem, own):
     "stem, place, value, told",
     [
         ("buffers", (1, 0, 0, 3, 4), np.nan, "buffers of frame 1 has NaN"),
-        ("buffers", (1, 0, CHANNELS.index("hard"), 3, 4), 2, "values of hard of frame 1 leave"),
-        ("targets", (0, 1, 3, 4), 1.2, "targets of frame 0 leave"),
+        ("buffers", (1, 0, CHANNELS.index("hard"), 3, 4), 2, "hard of frame 1 is from 0 to 2"),
+        ("buffers", (0, 1, CHANNELS.index("n_x"), 3, 4), -2, "n_x of frame 0 is from -2 to"),
+        ("buffers", (0, 0, CHANNELS.index("d"), 3, 4), -2, "d of frame 0 .* should be 0 or more"),
+        ("targets", (0, 1, 3, 4), 1.2, "a target of frame 0 is from 0 to 1.2"),
         ("valid", (1,), False, "no pixel of frame 1 is valid"),
     ],
 )

@@ -38,6 +38,21 @@ CHANNELS = (
 )
 LIT = ("hard", "pcf", "msm")  # 1 where there is no surface
 _KERNEL = gaussian(3, 0.55)
+# Ranges of values, with room for the rounding of half floats.
+VISIBLE = (-0.001, 1.001)
+LIMITS = {
+    **dict.fromkeys(("z", "d"), (0, np.inf)),
+    **dict.fromkeys(("c_e", "c_v", "agreement", *_NORMAL, *_MAP_NORMAL), (-1.01, 1.01)),
+    **dict.fromkeys(LIT, VISIBLE),
+}
+
+
+def out_of_range(values: np.ndarray, low: float, high: float) -> str:
+    """What is wrong with a user's values beside their range; empty for nothing."""
+    if not values.size or (low <= values.min() and values.max() <= high):
+        return ""
+    range_ = "0 or more" if high == np.inf else f"in [{round(low)}, {round(high)}]"
+    return f"from {values.min():g} to {values.max():g}; should be {range_}"
 
 
 def buffers_of(scene: Scene, surface: Surface, light_map: LightMap) -> np.ndarray:

@@ -7,20 +7,14 @@ import numpy as np
 
 from neural_shadows.errors import InputError
 from neural_shadows.files.frame_images import FrameImages
-from neural_shadows.frames.buffers import CHANNELS, LIT
+from neural_shadows.frames.buffers import CHANNELS, LIMITS, LIT, VISIBLE, out_of_range
 from neural_shadows.running.progress import warn
 
 _LARGEST = float(np.finfo(np.float16).max)  # 65504, of what a part holds
 # The farthest point of a frame from eye or light, in shares of a size that may be right.
 _SHARES = 0.05, 2.0
 
-# Ranges of values, with room for the rounding of half floats.
-_LIMITS = {
-    **dict.fromkeys(("z", "z_b", "d"), (0, np.inf)),
-    **dict.fromkeys(("c_e", "c_v", "agreement"), (-1.01, 1.01)),
-    **dict.fromkeys((*LIT, "target"), (-0.001, 1.001)),
-    **dict.fromkeys(("n_x", "n_y", "n_z", "e_x", "e_y", "e_z"), (-1.01, 1.01)),
-}
+_LIMITS = {**LIMITS, "z_b": LIMITS["z"], "target": VISIBLE}
 
 
 class EngineFrame(NamedTuple):
@@ -119,12 +113,8 @@ def _read(images: FrameImages, image: str, name: str, valid: np.ndarray) -> np.n
             )
         )
     values = np.where(valid, values, np.float32(0))
-    low, high = _LIMITS[name]
-    if values.min() < low or values.max() > high:
-        raise InputError(
-            f"{where}: {name} is from {values.min():g} to {values.max():g}; should be "
-            f"{'0 or more' if high == np.inf else f'in [{round(low)}, {round(high)}]'}"
-        )
+    if wrong := out_of_range(values, *_LIMITS[name]):
+        raise InputError(f"{where}: {name} is {wrong}")
     return values
 
 

@@ -2,10 +2,11 @@
 
 Of F frames with T perturbed frames each, C channels, K radii:
 
-- `NAME.json`: the settings of each frame and its perturbed frames; `channels`, `radii` (metres), the scene's
-  `size` (metres), how it was drawn (`seed`), and units;
+- `NAME.json`: the settings of each frame and its perturbed frames; `channels`, `radii` and the scene's
+  `size` (both in metres, of a user's frames in a unit of theirs), how it was drawn (`seed`), and units;
 - `NAME.buffers.npy`: (F, 1 + T, C, H, W) float16, of a frame and its perturbed frames, see `buffers`;
-- `NAME.targets.npy`: (F, K, H, W) float16, the exact soft shadow of the frame itself;
+- `NAME.targets.npy`: (F, K, H, W) float16, the share of the light that each pixel of the frame itself sees, 1
+  without a surface;
 - `NAME.valid.npy`: (F, 1 + T, H, W) bool, pixels with a surface inside the light's map;
 - `NAME.edges.npy`: (F, H, W) bool, pixels of the frame itself at edges of the geometry, see
   `geometry_edges`;
@@ -25,7 +26,7 @@ import numpy as np
 from neural_shadows.errors import InputError
 from neural_shadows.files.arrays import open_array
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.frames.buffers import CHANNELS, LIT
+from neural_shadows.frames.buffers import CHANNELS, LIMITS, VISIBLE, out_of_range
 from neural_shadows.frames.light_size import LightSize, light_size
 from neural_shadows.frames.setting import Setting, setting_of
 from neural_shadows.rendering.gbuffer import Lens, lens_of
@@ -184,20 +185,23 @@ def check_values(part: FrameSetPart) -> None:
     """Check the arrays of a user's part.
 
     Raises:
-        InputError: NaN or infinity, a visibility outside [0, 1], or no valid pixel.
+        InputError: NaN or infinity, a value outside its range (`LIMITS`), or no valid pixel.
     """
-    bases = {name: at for at, name in enumerate(part.about["channels"]) if name in LIT}
     for number in range(len(part)):
-        arrays = {"buffers": part.buffers[number], "targets": part.targets[number]}
-        for stem, array in arrays.items():
+        buffers, targets = part.buffers[number], part.targets[number]
+        for stem, array in {"buffers": buffers, "targets": targets}.items():
             if not np.isfinite(array).all():
                 raise InputError(
                     f"{part.frames_json}: {stem} of frame {number} has NaN or infinity"
                 )
-        visible = {"targets": arrays["targets"]}
-        visible |= {f"values of {name}": arrays["buffers"][:, at] for name, at in bases.items()}
-        for name, values in visible.items():
-            if values.size and (values.min() < 0 or values.max() > 1):
-                raise InputError(f"{part.frames_json}: {name} of frame {number} leave [0, 1]")
+        limited = [("a target", targets, VISIBLE)]
+        limited += [
+            (f"channel {name}", buffers[:, at], LIMITS[name])
+            for at, name in enumerate(part.about["channels"])
+            if name in LIMITS
+        ]
+        for name, values, limits in limited:
+            if wrong := out_of_range(values, *limits):
+                raise InputError(f"{part.frames_json}: {name} of frame {number} is {wrong}")
         if not part.valid[number, 0].any():
             raise InputError(f"{part.frames_json}: no pixel of frame {number} is valid")
