@@ -7,6 +7,7 @@ from filtered_walls import COLUMNS, HEIGHT, WIDTH, wall
 from scipy.ndimage import convolve, uniform_filter
 
 from neural_shadows.denoising.svgf import SvgfFilter
+from neural_shadows.denoising.wavelet import SIGMA_DEPTH
 
 
 def test_variance_on_a_wall_is_that_of_49_pixels():
@@ -31,7 +32,7 @@ def papers_passes(light, variance, depth, normal, slope):
             v, u = rows + down * step, columns + along * step
             inside = (v >= 0) & (v < HEIGHT) & (u >= 0) & (u < WIDTH)
             there = np.clip(v, 0, HEIGHT - 1), np.clip(u, 0, WIDTH - 1)
-            far = step * abs(slope[0] * along + slope[1] * down)
+            far = SIGMA_DEPTH * step * abs(slope[0] * along + slope[1] * down)
             weight = kernel[down + 2] * kernel[along + 2] * inside
             weight *= np.exp(-np.abs(depth - depth[there]) / (far + 1e-4 * depth))
             weight *= np.maximum(0, np.sum(normal * normal[there], axis=2)) ** 128

@@ -9,7 +9,9 @@ from numba import njit
 
 from neural_shadows.denoising.decay import decayed
 
-SIGMA_DEPTH = 1.0  # σ_z, in slopes of depth (4.4)
+# σ_z, in slopes of depth: 1 in print (4.4), of colours. With 4, errors on validation frames of `frames` were 13 to
+# 29 % less of one ray and 9 to 20 % of four; with 16 no less than that.
+SIGMA_DEPTH = 4.0
 SIGMA_NORMAL = 128  # σ_n: power of the normals' cosine (4.4)
 _REACH = 3  # variance is that of 7 × 7 pixels (4.2)
 _B3 = np.array([3 / 8, 1 / 4, 1 / 16], np.float32)  # the cubic B-spline's taps, from its middle

@@ -44,7 +44,7 @@ def height_of(
     if not least < penumbra < most:
         raise InputError(
             f"penumbra = {penumbra:g}: {', '.join(inserted)} on a plate has {least:.0f} to "
-            f"{most:.0f} pixels, by its height"
+            f"{most:.0f} pixels, by its height. Choose a width between these"
         )
     return round(brentq(too_wide, *ends, xtol=1e-3), 3)
 
