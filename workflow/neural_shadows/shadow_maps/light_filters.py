@@ -10,8 +10,7 @@ from numba import njit
 
 from neural_shadows.shadow_maps.light_discs import across, blockers, looked_up, vogel_disc
 from neural_shadows.shadow_maps.light_map import LightMap, distances_of
-
-MOST_SLOPE = 20.0  # texels
+from neural_shadows.shadow_maps.slope import slope
 
 
 def receiver_bias(
@@ -23,18 +22,16 @@ def receiver_bias(
 ) -> np.ndarray:
     """Depth bias of receivers, (n,) float32.
 
-    h · min(0.5 + reach tan θ, 20) + 1e-4 of the scene's size, h the width of a texel at the receiver
-    and θ the angle between its geometric normal and the light: as directional maps have it.
+    h · `slope` + 1e-4 of the scene's size, h the width of a texel at the receiver, the slope by its geometric
+    normal: as directional maps have it.
 
     Args:
-        from_light: (n, 3) from the light to receivers; cosines: (n,), of θ.
-        reach: in texels, from the receiver's; of a filtered map the filter's, too (a cone bias).
+        from_light: (n, 3) from the light to receivers; cosines: (n,), see `slope`.
+        reach: see `slope`; of a filtered map the filter's, too (a cone bias).
     """
     distance = distances_of(from_light)
     texel = light_map.texel_size(from_light / distance[:, None]) * distance
-    tangent = np.sqrt(1 / np.clip(cosines, 0.01, 1) ** 2 - 1)
-    slope = np.minimum(0.5 + reach * tangent, MOST_SLOPE)
-    return (texel * slope + 1e-4 * scene_size).astype(np.float32)
+    return (texel * slope(cosines, reach) + 1e-4 * scene_size).astype(np.float32)
 
 
 def hard_visibility(

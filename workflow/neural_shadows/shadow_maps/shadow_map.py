@@ -9,6 +9,7 @@ import numpy as np
 
 from neural_shadows.rendering.gbuffer import GBuffer
 from neural_shadows.scenes.lights import light_basis
+from neural_shadows.shadow_maps.slope import slope
 
 # Rays start this far beyond the object, clear of it by far more than float32 rounding.
 _CLEARANCE = 0.01
@@ -39,7 +40,7 @@ class Receivers:
     on_map: np.ndarray  # (k,) int64, indices into the m points
     place: np.ndarray  # (2, k) float32 in [0, 1), across the square along u and v
     height: np.ndarray  # (k,) float32, along the light: larger is nearer to it
-    slope: np.ndarray  # (k,) float32, 0.5 + 0.75 tan θ, at most 20
+    slope: np.ndarray  # (k,) float32, see `slope`
 
 
 def shadow_map_square(vertices: np.ndarray, light: np.ndarray) -> ShadowMapSquare:
@@ -61,13 +62,11 @@ def receivers_of(square: ShadowMapSquare, frame: GBuffer) -> Receivers:
     corner, side = square.corner.astype(np.float32), np.float32(square.side)
     place = np.stack([(u - corner[0]) / side, (v - corner[1]) / side])
     on_map = np.flatnonzero(((place >= 0) & (place < 1)).all(0))
-    # tan θ from 1% up: below it the bound of 20 holds anyway (tan θ = 26 reaches it).
-    tangent = np.sqrt(1 / np.clip(frame.cos_geometric[on_map], 0.01, 1) ** 2 - 1)
     return Receivers(
         square=square,
         count=len(frame.p),
         on_map=on_map,
         place=place[:, on_map],
         height=height[on_map],
-        slope=np.minimum(0.5 + 0.75 * tangent, 20),
+        slope=slope(frame.cos_geometric[on_map]),
     )

@@ -129,5 +129,5 @@ def cube_frame(frame):
 @pytest.mark.parametrize("key", ["hard", "pcf_9", "pcss", "msm_9", "mssm"])
 def test_a_cube_tells_what_a_picture_does(key, frame, cube_frame):
     constants = settings_of(METHODS[key])[0]
-    found = [METHODS[key].answer(of, RADIUS, **constants) for of in (cube_frame, frame)]
+    found = [visibility(METHODS[key], of, RADIUS, constants) for of in (cube_frame, frame)]
     assert np.mean((found[0] - found[1]) ** 2) < 2e-3
