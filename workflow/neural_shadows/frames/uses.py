@@ -13,3 +13,8 @@ def motion_of(use: str) -> str | None:
     """What moves in a sequence; None for the other uses."""
     motion = use.removeprefix("validation_")
     return motion if motion in SEQUENCES else None
+
+
+def use_of(part: str) -> str:
+    """Use of a part by its name: `validation_both` of `validation_both_000`."""
+    return part.rpartition("_")[0]

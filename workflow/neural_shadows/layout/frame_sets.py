@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from neural_shadows.frames.uses import SEQUENCES, TUNED_SEQUENCE, USES, motion_of
+from neural_shadows.frames.uses import SEQUENCES, TUNED_SEQUENCE, USES, motion_of, use_of
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import part_names
 from neural_shadows.rendering.light_shape import shape_module
@@ -106,7 +106,7 @@ def parts(layout: Layout, scene: str, frame_set: str, use: str) -> list[str]:
     """Files of a scene's frames of one use."""
     settings = layout.frames(frame_set)
     if settings["path"] is not None:
-        names = [part for part in settings["parts"][scene] if part.rsplit("_", 1)[0] == use]
+        names = [part for part in settings["parts"][scene] if use_of(part) == use]
         if settings["engine"] is not None:
             return [layout.paths.imported_frames("json", scene, frame_set, name) for name in names]
         return [f"{settings['path']}/{scene}/{name}.json" for name in names]

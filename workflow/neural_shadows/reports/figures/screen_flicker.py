@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from neural_shadows.evaluation.answers import flicker_name, read_answer
+from neural_shadows.frames.uses import use_of
 from neural_shadows.reports.drawing.style import Figure, new_figure, note_below
 from neural_shadows.reports.tables import screen_temporal
 from neural_shadows.sections.sections import Sections
@@ -47,7 +48,7 @@ def draw(
     maps = {"exact": [read_answer(first, flicker_name(part, exact=True)) for part in sequences]}
     for method, label in labels.items():
         maps[label] = [read_answer(paths[method], flicker_name(part)) for part in sequences]
-    moving = [part.stem.rsplit("_", 1)[0] for part in sequences]
+    moving = [use_of(part.stem) for part in sequences]
     return flicker_figure(maps, moving, heading)
 
 

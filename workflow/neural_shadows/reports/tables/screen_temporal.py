@@ -6,7 +6,7 @@ from typing import Literal
 import pandas as pd
 from pydantic import Field
 
-from neural_shadows.frames.uses import RUN_IN
+from neural_shadows.frames.uses import RUN_IN, use_of
 from neural_shadows.metrics.registry import metrics
 from neural_shadows.reports.data.quality_cells import metric_column
 from neural_shadows.reports.data.soft_frames import TrainedFrames, learned_rows
@@ -85,7 +85,7 @@ def temporal_table(soft: TrainedFrames) -> pd.DataFrame:
 
 def _by_kind(errors: pd.DataFrame, metric: str, prefix: str) -> dict[str, float]:
     rows = errors[errors["metric"] == metric]
-    kinds: Sequence[str] = rows["part"].str.rsplit("_", n=1).str[0]
+    kinds: Sequence[str] = rows["part"].map(use_of)
     return {f"{prefix}_{kind}": value for kind, value in zip(kinds, rows["value"])}
 
 

@@ -11,6 +11,7 @@ from pydantic import Field
 from neural_shadows.evaluation.null_predictors import NULL
 from neural_shadows.evaluation.registry import frame_method
 from neural_shadows.files.whole_files import read_json
+from neural_shadows.frames.uses import use_of
 from neural_shadows.layout import tables
 from neural_shadows.layout.layout import Layout
 from neural_shadows.metrics.pooled_psnr import psnr_of
@@ -186,7 +187,7 @@ def soft_table(
 def _flicker(errors: pd.DataFrame) -> pd.DataFrame:
     """Mean flicker by method and radius, and by kind of sequence (`instability_camera`, …)."""
     flicker = errors[errors["metric"].isin(FLICKER)].rename(columns={"radius": "number"})
-    kind = flicker["part"].str.rsplit("_", n=1).str[0]
+    kind = flicker["part"].map(use_of)
     index = ["method", "number"]
     means = flicker.pivot_table("value", index, "metric").reindex(columns=FLICKER)
     by_kind = flicker.assign(column=flicker["metric"] + "_" + kind)
@@ -216,7 +217,7 @@ def _describe_flicker(
     if shown.empty:
         return []
     parts = errors[errors["metric"] == "instability"]
-    kinds = ", ".join(parts["part"].str.rsplit("_", n=1).str[0].unique())
+    kinds = ", ".join(parts["part"].map(use_of).unique())
     return [
         f"E: mean of exp(3 |change|) − 1 along a point's motion (Datta et al. 2022), over sequences of "
         f"{', '.join(parts['scene'].unique())} with a moving: {kinds} (the CSV has each), at a "

@@ -14,6 +14,7 @@ from pydantic import Field, model_validator
 
 from neural_shadows.evaluation.registry import UNLEARNED
 from neural_shadows.files.whole_files import read_json
+from neural_shadows.frames.uses import use_of
 from neural_shadows.layout import frame_methods, tables
 from neural_shadows.layout.layout import Layout
 from neural_shadows.metrics.registry import frame_metrics, metric_in
@@ -224,7 +225,7 @@ def _row(
 
 def _in_sequences(own: pd.DataFrame) -> dict[str, float]:
     """Temporal errors by mover, the exact shadow's, and the squared error."""
-    moves = own["part"].str.rsplit("_", n=1).str[0]
+    moves = own["part"].map(use_of)
 
     def mean(metric: str, mover: str) -> float:
         return float(own[(own["metric"] == metric) & (moves == mover)]["value"].mean())
