@@ -86,7 +86,7 @@ def table(
     unseen: Sequence[str],
     more_metrics: Sequence[str] = (),
 ) -> Table:
-    """Tabulate errors and costs by radius and method, in the order of `labels`.
+    """Tabulate errors and costs by radius and method, in the order of `soft.labels`.
 
     CSV: all columns of `soft_table`, and the scale.
 
