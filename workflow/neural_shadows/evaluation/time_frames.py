@@ -11,7 +11,7 @@ import numpy as np
 
 from neural_shadows.evaluation.frame import Inputs
 from neural_shadows.evaluation.measured_frames import MeasuredFrame, open_frames, open_methods
-from neural_shadows.evaluation.method import Method, visibility
+from neural_shadows.evaluation.method import Constants, Method, visibility
 from neural_shadows.evaluation.registry import frame_method
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.frames.soft_frame import SoftFrame
@@ -43,34 +43,19 @@ def times(
         InputError: an input file cannot be read.
     """
     frames = [frame for frame in open_frames(inputs) if frame.number == 0]
-    radii = range(len(frames[0].part.radii))
-    tuned = {
-        record["method"]: [each["constants"] for each in record["radii"]]
-        for record in map(read_json, constants)
-    }
-    untuned = [{}] * len(radii)
-    chosen = {name: tuned.get(frame_method(name).tuned_as or name, untuned) for name in methods}
-    trained = {path.parent.name: path for path in inputs.weights}
-    opened = {
-        name: open_methods(name, replace(inputs, weights=[trained[n]] if n else []))(None)
-        for name, n in methods.items()
-    }
-    timed = {name: method for name, method in opened.items() if method.answer}
-    answer_ms = {name: np.zeros((len(frames), len(radii))) for name in timed}
+    radii = frames[0].part.radii
+    timed, chosen = _opened(inputs, methods, constants, len(radii))
     own = frames[0].frame.light_map.resolution
     sides = {name: method.resolution or own for name, method in timed.items()}
     maps: dict[int, list[float]] = {side: [] for side in sorted({own, *sides.values()})}
-    shares: list[float] = []
+    answer_ms = {name: np.zeros((len(frames), len(radii))) for name in timed}
+    shares = [_share(measured.frame) for measured in frames]
     with progress_bar(len(frames) * len(radii), "frames", "time methods") as bar:
         for number, measured in enumerate(frames):
             frame = _prepared(measured.frame)
-            shares.append(_share(frame))
             for side, times in maps.items():
-                with_map = _prepared(frame.with_map_of(side))
-                work = partial(_rasterised, with_map)
-                times.append(shares[-1] * medians({"map": work}, repeats)["map"])
-            for k in radii:
-                radius = measured.part.radii[k]
+                times.append(shares[number] * _map_ms(frame, side, repeats))
+            for k, radius in enumerate(measured.part.radii):
                 works = {
                     name: partial(_answer, method, frame, radius, chosen[name][k])
                     for name, method in timed.items()
@@ -82,9 +67,7 @@ def times(
                     work()
                 milliseconds = medians(works, repeats)
                 for name, each in answer_ms.items():
-                    each[number, k] = (
-                        milliseconds[name] if name in milliseconds else each[number, k - 1]
-                    )
+                    each[number, k] = milliseconds.get(name, each[number, k - 1])
                 bar.update()
     return {
         "frames": len(frames),
@@ -108,6 +91,25 @@ def times(
             for name, each in answer_ms.items()
         },
     }
+
+
+def _opened(
+    inputs: Inputs, methods: Mapping[str, str | None], constants: Sequence[Path], radii: int
+) -> tuple[dict[str, Method], dict[str, list[Constants]]]:
+    """The methods that compute an answer, and the constants of all by radius; see `times`."""
+    tuned = {
+        record["method"]: [each["constants"] for each in record["radii"]]
+        for record in map(read_json, constants)
+    }
+    chosen = {
+        name: tuned.get(frame_method(name).tuned_as or name, [{}] * radii) for name in methods
+    }
+    trained = {path.parent.name: path for path in inputs.weights}
+    opened = {
+        name: open_methods(name, replace(inputs, weights=[trained[n]] if n else []))(None)
+        for name, n in methods.items()
+    }
+    return {name: method for name, method in opened.items() if method.answer}, chosen
 
 
 def _share(frame: SoftFrame) -> float:
@@ -143,8 +145,10 @@ def _answer(
     return visibility(method, anew, radius, constants)
 
 
-def _rasterised(frame: SoftFrame) -> np.ndarray:
-    return replace(frame).depths
+def _map_ms(frame: SoftFrame, side: int, repeats: int) -> float:
+    """Milliseconds of rasterising the light's map of side² texels."""
+    with_map = _prepared(frame.with_map_of(side))
+    return medians({"map": lambda: replace(with_map).depths}, repeats)["map"]
 
 
 def medians(works: Mapping[str, Callable[[], Any]], repeats: int) -> dict[str, float]:
