@@ -1,7 +1,9 @@
 """Stage: draw and render one scene's frames of one use."""
 
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import Any
 from zlib import crc32
 
 import numpy as np
@@ -109,23 +111,34 @@ def render_frames(
             if rays:
                 traced[number] = render_rays(opened, kind, setting, radii=radii, rays=rays)
             bar.update()
-    described = [
+    settings_of_all = [
         {"setting": setting.as_json(), "twins": [twin.as_json() for twin in twin_settings]}
         for setting, twin_settings in zip(settings, perturbed)
     ]
-    about = {"use": use, "first": first, "seed": seed, "scene": opened.settings}
-    about |= {"width": kind.width, "height": kind.height, "size": size, "radii": radii}
-    about |= {"given_radii": frames["radii"], "radius_unit": frames["radius_unit"]}
-    about |= {"samples": samples, "blur": frames["blur"], "edges": True, "rays": rays}
-    about |= {
+    drawn = {"use": use, "first": first, "seed": seed, "samples": samples, "rays": rays}
+    about = drawn | _describe(opened, kind, frames, radii) | {"frames": settings_of_all}
+    write_json(frames_json, about | describe_origin())
+
+
+def _describe(
+    scene: SoftScene, kind: FrameKind, frames: FrameSettings, radii: Sequence[float]
+) -> dict[str, Any]:
+    """What all frames of a part share; radii: in metres."""
+    return {
+        "scene": scene.settings,
+        "width": kind.width,
+        "height": kind.height,
+        "size": scene.at_rest.size,
+        "radii": radii,
+        "given_radii": frames["radii"],
+        "radius_unit": frames["radius_unit"],
         "light_map": kind.light_map,
-        "light": shape.model_dump(),
+        "light": kind.shape.model_dump(),
+        "blur": frames["blur"],
+        "edges": True,
         "channels": CHANNELS,
         "units": UNITS,
-        "frames": described,
-        **describe_origin(),
     }
-    write_json(frames_json, about)
 
 
 def streams_of(name: str, seed: int) -> tuple[int, int]:
