@@ -132,3 +132,10 @@ def test_values_that_cannot_be(part, tmp_path, stem, place, value, told):
     array[place] = value
     with pytest.raises(InputError, match=told):
         check_values(FrameSetPart(copied(part, tmp_path, **{stem: array})))
+
+
+def test_pixels_without_a_surface_may_have_any_values(part, tmp_path):
+    array = np.array(part.buffers)
+    array[0, 0, CHANNELS.index("z"), 3, 4] = 0
+    array[0, 0, CHANNELS.index("d"), 3, 4] = -2
+    check_values(FrameSetPart(copied(part, tmp_path, buffers=array)))

@@ -97,6 +97,10 @@ def test_frames_are_compared_in_pairs(pair, changes, verdict, words):
     assert words in outcome["evidence"] and "nan" not in outcome["evidence"]
 
 
+def test_a_point_light_is_named():
+    assert "at a point light of PCSS" in judge(claim(PAIR, radii=[0]), data())["evidence"]
+
+
 def test_a_missing_metric_is_named():
     outcome = judge(claim(PAIR, metrics=["lpips"]), data())
     assert outcome["verdict"] == verdicts.TOO_SMALL and "no LPIPS of PCSS, MSM" in outcome["reason"]

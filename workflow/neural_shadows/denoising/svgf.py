@@ -1,8 +1,8 @@
 """An SVGF-like spatial filter: edge-stopping wavelet passes guided by variance.
 
 After Schied et al. 2017, "Spatiotemporal variance-guided filtering". "Like", because depths'
-gradients come from neighbouring pixels instead of a rasteriser, and the weights' exponential is a
-vectorisable approximation. All on one thread.
+gradients come from neighbouring pixels instead of a rasteriser, depths may differ by four times as much,
+and the weights' exponential is a vectorisable approximation. All on one thread.
 """
 
 from collections.abc import Iterator

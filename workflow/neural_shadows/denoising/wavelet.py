@@ -9,7 +9,7 @@ from numba import njit
 
 from neural_shadows.denoising.decay import decayed
 
-# σ_z, in slopes of depth: 1 in print (4.4), of colours. With 4, errors on validation frames of `frames` were 13 to
+# σ_z, in slopes of depth: 1 in print (4.4), where it filters colours. With 4, errors on validation frames of `frames` were 13 to
 # 29 % less of one ray and 9 to 20 % of four; with 16 no less than that.
 SIGMA_DEPTH = 4.0
 SIGMA_NORMAL = 128  # σ_n: power of the normals' cosine (4.4)

@@ -68,7 +68,8 @@ class Method:
         channel: the frame's buffer with its visibility, if stored.
         constant: the visibility of all surfaces facing the light.
         last: a filter of a surface and its visibilities (n,), after all else, so that in screen space the
-            border of surfaces that face away is filtered, too. of_last: its constants among all.
+            border of surfaces that face away is filtered, too. of_last: its constants among all, whose first
+            candidates leave visibilities as they are.
         resolution: texels of a side of the light's map, if not the frame set's.
     """
 

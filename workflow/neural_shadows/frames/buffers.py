@@ -48,7 +48,7 @@ LIMITS = {
 
 
 def out_of_range(values: np.ndarray, low: float, high: float) -> str:
-    """What is wrong with a user's values beside their range; empty for nothing."""
+    """How a user's values leave their range, for an error; empty if they do not."""
     if not values.size or (low <= values.min() and values.max() <= high):
         return ""
     range_ = "0 or more" if high == np.inf else f"in [{round(low)}, {round(high)}]"

@@ -185,7 +185,8 @@ def check_values(part: FrameSetPart) -> None:
     """Check the arrays of a user's part.
 
     Raises:
-        InputError: NaN or infinity, a value outside its range (`LIMITS`), or no valid pixel.
+        InputError: NaN or infinity, a target or a surface's value outside its range (`LIMITS`), or no valid
+            pixel.
     """
     for number in range(len(part)):
         buffers, targets = part.buffers[number], part.targets[number]
@@ -195,8 +196,9 @@ def check_values(part: FrameSetPart) -> None:
                     f"{part.frames_json}: {stem} of frame {number} has NaN or infinity"
                 )
         limited = [("a target", targets, VISIBLE)]
+        surfaces = buffers[:, part.about["channels"].index("z")] != 0
         limited += [
-            (f"channel {name}", buffers[:, at], LIMITS[name])
+            (f"channel {name}", buffers[:, at][surfaces], LIMITS[name])
             for at, name in enumerate(part.about["channels"])
             if name in LIMITS
         ]

@@ -33,10 +33,9 @@ _IMPORT = re.compile(
     re.MULTILINE,
 )
 
-_COMMENT = re.compile(
-    r"^[ \t]*#(?!#).*\n", re.MULTILINE
-)  # on a line of its own; ## is a text's heading
-_DOCSTRING = re.compile(r'^([ \t]*)"""(?=[\w`]).*?"""[ \t]*$', re.MULTILINE | re.DOTALL)
+# On lines of their own. A text may have lines that begin with ##, and none with one #.
+_COMMENT = re.compile(r"^[ \t]*#(?!#).*\n", re.MULTILINE)
+_DOCSTRING = re.compile(r'^([ \t]*)"""(?=[\w`(−]).*?"""[ \t]*$', re.MULTILINE | re.DOTALL)
 
 # Of annotations alone, which no result depends on.
 _TYPES = re.compile(r"^if TYPE_CHECKING:.*\n(?:(?:[ \t]+.*)?\n)+", re.MULTILINE)
@@ -88,7 +87,10 @@ def modules_of(stage: Path) -> list[Path]:
 
 
 def digest(modules: Iterable[Path]) -> str:
-    """Of modules' names and code, 16 hexadecimal digits: edited words rerun nothing."""
+    """Of modules' names and code, 16 hexadecimal digits.
+
+    Edited docstrings, and comments on lines of their own, rerun nothing.
+    """
     content = hashlib.sha256()
     for module in _sorted(modules):
         content.update(_content(module))

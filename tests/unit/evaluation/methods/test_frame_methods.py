@@ -121,6 +121,11 @@ def test_constants_are_those_of_the_first_of_a_kind():
         assert first.constants == method.constants and not first.tuned_as
 
 
+def test_the_first_constants_of_a_last_filter_are_none():
+    first = {name: m.constants[name][0] for m in FRAME_METHODS.values() for name in m.of_last}
+    assert first == {"width": 0, "bleeding": 0}
+
+
 @pytest.fixture(scope="module")
 def cube_frame(frame):
     return SoftFrame(frame.scene, frame.surface, CENTRE, cube_map(CENTRE, 512))

@@ -93,7 +93,7 @@ _LEAST = {"least": (0.003, 0.01, 0.03, 0.1, 0.3)}
 METHODS = {
     "mssm": Method(
         _visibility,
-        pcss.CONSTANTS | fixed.BIAS | _LEAST | fixed.BLEEDING,
+        pcss.CONSTANTS | fixed.BIAS | _LEAST | fixed.BLEEDING,  # a cone's bias, as of fixed moments
         "MSSM",
         rounds=2,
         texel_floats=8,  # a table's sums are float64

@@ -51,8 +51,8 @@ class SoftTable:
 
     Args:
         values: a row a frame (scene, part, frame), a column a (method, metric, radius).
-        labels: by method; times: of `time_methods`, None without timing; radii: texts with
-            their unit.
+        labels: by method; times: of `time_methods`, None without timing; radii: their
+            `light_sizes`.
     """
 
     values: pd.DataFrame

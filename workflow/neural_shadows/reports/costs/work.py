@@ -257,7 +257,9 @@ def tune(layout: Layout, frame_set: str, group: str, method: str) -> Work:
         return Work(LIGHT_START + 1.0 * pixels)
     pixels = _pixels(layout, frame_set, frame_sets.validations(layout, frame_set))
     tuned = method_of(method)
-    counts = [len(values) for values in tuned.constants.values()]
+    # Those of a last filter answer nothing anew.
+    own = {name: values for name, values in tuned.constants.items() if name not in tuned.of_last}
+    counts = [len(values) for values in own.values()]
     tried = math.prod(counts) if tuned.joint else 1 + tuned.rounds * sum(counts)
     if "passes" in tuned.constants:
         tried /= SHARED
