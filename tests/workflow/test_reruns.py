@@ -92,7 +92,7 @@ def test_a_second_run_does_nothing(edited):
     """Nor one of modules of other comments and docstrings, or of another log."""
     for path in edited.folder.glob("workflow/neural_shadows/*/*.py"):
         text = path.read_text("utf-8").replace('"""', '"""Words. ', 1)
-        path.write_text(f"# words\n{text}\n# words\n", "utf-8")
+        path.write_text(f"# words\n{text}# words\n", "utf-8")
     for path in (edited.folder / SMOKE, edited.module("running/stage.py")):
         with path.open("a") as file:
             file.write("\n# a comment\n")
