@@ -56,7 +56,7 @@ def _filtered(surface: "Surface", shares: np.ndarray, *, width: float) -> np.nda
 # One after another; in this order the errors under the sun's and the panel's lights were those of all 288
 # settings of four biases. With `nearest` first, as it was, one of six was 2 % larger.
 CONSTANTS = {
-    "bias": (0.0, 0.03, 0.1, 0.3, 1.0, 3.0),
+    "bias": (0.03, 0.1, 0.3, 1.0, 3.0),
     "scale": (0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0),
     "nearest": (0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9),
 }
