@@ -22,7 +22,7 @@ def test_variance_on_a_wall_is_that_of_49_pixels():
 
 
 def papers_passes(light, variance, depth, normal, slope):
-    """The picture after each pass, as the paper writes it (Schied et al. 2017, 4.3, 4.4)."""
+    """The picture after each pass, as the paper writes it, with our σ_z (Schied et al. 2017, 4.3, 4.4)."""
     rows, columns = np.mgrid[:HEIGHT, :WIDTH]
     kernel = [1 / 16, 1 / 4, 3 / 8, 1 / 4, 1 / 16]
     for step in (1, 2, 4, 8, 16):
