@@ -99,15 +99,18 @@ def test_a_second_round_chooses_each_constant_anew(folder, monkeypatch, rounds, 
     frames = [*measured_frames([folder / "validation_000.json"], [])]
     mean = float(np.concatenate([one.target[1][one.off_edges] for one in frames]).mean())
     constants = {"grey": (mean - 0.5, mean - 0.3), "more": (0.0, 0.1, 0.45)}
-    even = Method(
-        lambda frame, radius, grey, more: np.full(len(frame.starts), grey + more, np.float32),
-        constants,
-        "Even",
-        rounds=rounds,
-        by_rays=True,
-    )
+    asked = []
+
+    def answer(frame, radius, grey, more):
+        asked.append((frame.number, radius, grey, more))
+        return np.full(len(frame.starts), grey + more, np.float32)
+
+    even = Method(answer, constants, "Even", rounds=rounds, by_rays=True)
     monkeypatch.setitem(METHODS, "pcf_9", even)
     found = tune(folder, "pcf_9")["radii"][1]["constants"]
+    assert len(asked) == len(
+        set(asked)
+    )  # the second constant's first value was tried with the first's
     assert abs(sum(found.values()) - mean) == pytest.approx(off)
 
 

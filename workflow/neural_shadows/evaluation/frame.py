@@ -2,8 +2,8 @@
 
 A frame is a view of a scene in its unit sphere under a sun (`views`), or an image of a scene in metres
 under an area light of several radii (`measured_frames`). Both modules have the same
-functions, and frames of the same methods: `errors_of` returns sums of errors (radii, settings, terms of
-`ERRORS`), and their divisor. The modules of metrics have `metrics`, of a frame, a method's visibility, a
+functions, and frames of the same methods: `errors_of` returns sums of errors by radius (settings, terms
+of `ERRORS`), and their divisor. The modules of metrics have `metrics`, of a frame, a method's visibility, a
 radius by number and image metrics by name. None is imported by a statement, so that a result depends on
 its own kind's alone.
 """

@@ -135,12 +135,12 @@ class MeasuredFrame:
 
     def errors_of(
         self, method: Method, tried: Sequence[Sequence[Constants]]
-    ) -> tuple[np.ndarray, float]:
-        """Squared errors off edges (radii, settings, 1), and the pixels."""
+    ) -> tuple[list[np.ndarray], float]:
+        """Squared errors off edges by radius (settings, 1), and the pixels."""
         target, mask = self.target, self.off_edges
         if mask is None:
             mask = self.valid
-        squares = np.zeros((len(tried), len(tried[0]), 1))
+        squares = [np.zeros((len(settings), 1)) for settings in tried]
         by_constants: dict[str, np.ndarray] = {}  # of a method independent of the radius
         for k, settings in enumerate(tried):
             for number, constants in enumerate(settings):
@@ -149,7 +149,7 @@ class MeasuredFrame:
                     image = self.answered(method, self.part.radii[k], constants)
                 if not method.of_radius:
                     by_constants[str(constants)] = image
-                squares[k, number] = np.square(image - target[k])[mask].sum()
+                squares[k][number] = np.square(image - target[k])[mask].sum()
         return squares, mask.sum()
 
     def key(self, radius: int) -> dict[str, str | int]:

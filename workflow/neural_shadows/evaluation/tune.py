@@ -60,12 +60,14 @@ def tune(
     candidates = {name: list(values) for name, values in tuned.constants.items()}
     by_radius = [{"constants": _begin(tuned)} for _ in range(kind.count_radii(frames[0]))]
     ends = [dict.fromkeys(candidates, False) for _ in by_radius]
+    known = [{} for _ in by_radius]
     for names in _searched(tuned):
         grid = [dict(zip(names, values)) for values in product(*map(candidates.get, names))]
         tried = [[best["constants"] | values for values in grid] for best in by_radius]
         title = f"tune {' and '.join(names)} of {method}"
-        errors = _errors(kind, inputs, tuned, tried, title)
-        for best, settings, terms, at_end in zip(by_radius, tried, errors, ends):
+        _measure(kind, inputs, tuned, tried, known, title)
+        for best, settings, errors, at_end in zip(by_radius, tried, known, ends):
+            terms = np.array([errors[_key(setting)] for setting in settings])
             sums = terms.sum(axis=1)
             chosen = _least(settings, sums, names[::-1] if tuned.joint else [])
             best |= {"constants": settings[chosen], "error": sums[chosen]}
@@ -129,21 +131,37 @@ def _with_history(
     return best
 
 
-def _errors(
+def _measure(
     kind: ModuleType,
     inputs: Inputs,
     method: Method,
     tried: Sequence[Sequence[Constants]],
+    known: Sequence[dict[tuple[float, ...], np.ndarray]],
     title: str,
-) -> np.ndarray:
-    """Mean errors of frames, (radii, settings, terms)."""
-    sums, count = 0.0, 0
+) -> None:
+    """Add to those known by radius the mean errors of frames, (terms,), of settings tried first now.
+
+    Each constant after the first is tried at the value that it has, and later rounds repeat whole settings.
+    """
+    new = [
+        [setting for setting in settings if _key(setting) not in errors]
+        for settings, errors in zip(tried, known)
+    ]
+    if not any(new):
+        return
+    sums, count = [0.0] * len(new), 0
     with progress_bar(kind.count_frames(inputs.frames), "frames", title) as bar:
         for frame in kind.open_frames(inputs):
-            errors, weight = frame.errors_of(method, tried)
-            sums, count = sums + errors, count + weight
+            errors, weight = frame.errors_of(method, new)
+            sums, count = [a + b for a, b in zip(sums, errors)], count + weight
             bar.update()
-    return sums / count
+    for settings, errors, total in zip(new, known, sums):
+        errors |= zip(map(_key, settings), total / count)
+
+
+def _key(setting: Constants) -> tuple[float, ...]:
+    """Its values, in the order that all settings of a search have."""
+    return tuple(setting.values())
 
 
 def _least(settings: Sequence[Constants], errors: np.ndarray, smallest: Sequence[str]) -> int:

@@ -50,8 +50,8 @@ class View:
 
     def errors_of(
         self, method: Method, tried: Sequence[Sequence[Constants]]
-    ) -> tuple[np.ndarray, float]:
-        """Shares of points in error, (1, settings, 2), and 1.
+    ) -> tuple[list[np.ndarray], float]:
+        """Shares of points in error, of one radius (settings, 2), and 1.
 
         The method is evaluated once for all depth biases.
         """
@@ -63,7 +63,7 @@ class View:
             for constants in chosen:
                 error = shadow_error(visibility(constants["depth_bias"]), self.reference)
                 errors.append((error.false_shadow, error.light_leak))
-        return np.array([errors]), 1
+        return [np.array(errors)], 1
 
     def key(self, radius: int) -> dict[str, str | int]:
         """Columns of its metrics: the part is its view set."""
