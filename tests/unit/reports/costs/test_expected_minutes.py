@@ -128,10 +128,11 @@ def test_a_job_counts_once_and_on_its_cores(monkeypatch):
 
 
 def test_a_job_takes_longer_on_a_slower_machine():
-    job = {"rule": "train", "name": "", "threads": 1, "work": vars(Work(10, 20.4, 21.5, 3.0))}
+    job = {"rule": "train", "name": "", "threads": 1, "work": vars(Work(4, 6, 20.4, 21.5, 3.0))}
     assert stage.seconds_of(job, RATES, 2) == pytest.approx(13)
     assert stage.seconds_of(job, RATES | {"products": 10.2}, 2) == pytest.approx(14)
-    assert stage.seconds_of(job, RATES | {"start": 8.2}, 2) == pytest.approx(23)
+    assert stage.seconds_of(job, RATES | {"start": 8.2}, 2) == pytest.approx(17)
+    assert stage.seconds_of(job, RATES | {"loops": RATES["loops"] / 2}, 2) == pytest.approx(19)
     # Threads help what a network multiplies, and nothing on one core.
     assert stage.seconds_of(job | {"threads": 2}, RATES, 2) == pytest.approx(11 + 2 / 1.85)
     assert stage.seconds_of(job | {"threads": 2}, RATES, 1) == pytest.approx(13)

@@ -52,7 +52,7 @@ def expected_minutes(
         f"Longest jobs of `{EVERYTHING}`, minutes: {'; '.join(items)}.",
         "One thread of this machine: {products:.0f} · 10⁹ multiply-adds a second in products, "
         "{convolutions:.0f} in convolutions ({precision}, {device}); {rays:.1f} · 10⁶ occlusion rays; "
-        "{start:.1f} s for a process to start.".format(**rates),
+        "{loops:.0f} · 10⁶ exponentials; {start:.1f} s for a process to start.".format(**rates),
         f"Work is counted by the settings, with constants measured on {REFERENCE}. Expect half to "
         "twice these minutes: other work beside the run and downloads are not in them.",
     ]
@@ -66,8 +66,9 @@ def seconds_of(job: Job, rates: Rates, cores: int) -> float:
     network = work["products"] / rates["products"] + work["convolutions"] / rates["convolutions"]
     if job["rule"] == "train" and rates["device"] == "cpu":
         network /= 1 + MORE_THREADS * (min(job["threads"], cores) - 1)
-    slower = rates["start"] / REFERENCE_RATES["start"]
-    return network + work["rays"] / rates["rays"] + slower * work["seconds"]
+    start = work["start"] * rates["start"] / REFERENCE_RATES["start"]
+    others = work["seconds"] * REFERENCE_RATES["loops"] / rates["loops"]
+    return network + work["rays"] / rates["rays"] + start + others
 
 
 def _row(

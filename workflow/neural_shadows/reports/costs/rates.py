@@ -23,12 +23,14 @@ class Rates(TypedDict):
     """Rates of one thread, or of a GPU.
 
     `products` and `convolutions`, 10⁹ multiply-adds a second in `precision` on `device`; occlusion
-    `rays`, 10⁶ a second; `start`, processor seconds of a process.
+    `rays`, 10⁶ a second; `loops`, 10⁶ exponentials a second, for all work without a rate of its own;
+    `start`, processor seconds of a process.
     """
 
     products: float
     convolutions: float
     rays: float
+    loops: float
     start: float
     device: str
     precision: str
@@ -47,6 +49,7 @@ def measure_rates(device: str, precision: str) -> Rates:
             "products": _products(chosen, dtype),
             "convolutions": _convolutions(chosen, dtype),
             "rays": _rays(),
+            "loops": _loops(),
             "start": _start(),
             "device": chosen.type,
             "precision": str(dtype).removeprefix("torch."),
@@ -81,6 +84,12 @@ def _rays() -> float:
     origins = np.resize(ball.vertices, directions.shape).astype(np.float32) * np.float32(1.01)
     rays = _seconds(lambda: tracer.occluded(origins, directions), torch.device("cpu"))
     return len(directions) / 1e6 / rays
+
+
+def _loops() -> float:
+    """Rate of exponentials of a picture's row, as those of filters."""
+    values = np.linspace(-1, 1, 1 << 14, dtype=np.float32)
+    return len(values) / 1e6 / _seconds(lambda: np.exp(-values * values), torch.device("cpu"))
 
 
 def _seconds(work: Callable[[], object], device: torch.device) -> float:

@@ -21,8 +21,14 @@ from neural_shadows.networks.settings.networks import screen_network
 from neural_shadows.sections.frame_sets import VIEWS
 
 REFERENCE = "two cores of an AMD EPYC (Zen 1, 2 GHz) with AVX2 alone"
-# Its `Rates`, of one thread.
-REFERENCE_RATES = {"products": 20.4, "convolutions": 21.5, "rays": 3.0, "start": 4.1}
+# Its `Rates`, of one thread; that of loops by jobs there and on an EPYC with 543 · 10⁶ exponentials.
+REFERENCE_RATES = {
+    "products": 20.4,
+    "convolutions": 21.5,
+    "rays": 3.0,
+    "loops": 255.0,
+    "start": 4.1,
+}
 
 START = 4.5  # seconds of a process that imports torch
 LIGHT_START = 1.5  # of one that does not
@@ -33,12 +39,14 @@ class Work:
     """Work of a job.
 
     Args:
+        start: seconds on `REFERENCE` that its process takes to start.
         seconds: on `REFERENCE`, of all that the others do not count.
         products: multiply-adds of a network on rays, 10⁹.
         convolutions: of a screen-space network, 10⁹.
         rays: occlusion rays, 10⁶.
     """
 
+    start: float = 0.0
     seconds: float = 0.0
     products: float = 0.0
     convolutions: float = 0.0
@@ -57,7 +65,7 @@ class Work:
 def sample_rays(layout: Layout, scene: str, sampling: str, shard: str) -> Work:
     settings, ends = layout.entry("samplings", sampling), layout.shard_range(sampling, shard)
     samples = (ends["last"] - ends["first"]) * settings["points_per_direction"]
-    return Work(LIGHT_START + 1.3e-6 * samples)
+    return Work(LIGHT_START, 1.3e-6 * samples)
 
 
 # Trainings.
@@ -65,7 +73,7 @@ def sample_rays(layout: Layout, scene: str, sampling: str, shard: str) -> Work:
 # Seconds of a grid's and a field's sample in training, and of a grid's ray in a query, on one thread.
 # Two threads train a grid 1.66 times and a field 1.46 times as fast, which is not counted.
 GRID_SAMPLE, FIELD_SAMPLE, GRID_RAY = 28e-6, 1.6e-6, 35e-6
-BUILT = {"mesh": 6.0, "occupancy_field": 13.0, "voxel_dag": 25.0, "height_map": 5.0}
+BUILT = {"mesh": 1.5, "occupancy_field": 8.5, "voxel_dag": 20.5, "height_map": 0.5}
 # Rate of a training on frames, its loss and optimiser included, as a share of that of convolutions.
 SHARE_OF_CONVOLUTIONS = 0.38
 
@@ -76,18 +84,18 @@ def train(layout: Layout, experiment: str) -> Work:
         return _train_on_frames(entry["network"], entry["training"])
     network, training = entry["network"], entry["training"]
     if training is None:
-        return Work(BUILT.get(network["encoding"], START))
+        return Work(START, BUILT.get(network["encoding"], 0.0))
     samples = training["steps"] * training["batch_size"]
     if network["encoding"] == "occupancy_field":
         distances = 8.0 * (network["start"] != "undecided")
-        return Work(START + distances + FIELD_SAMPLE * samples)
+        return Work(START, distances + FIELD_SAMPLE * samples)
     if network["encoding"] != "frequency":
-        return Work(START + GRID_SAMPLE * samples)
+        return Work(START, GRID_SAMPLE * samples)
     macs = 3 * samples * _macs_of_ray(network)
     if training["optimiser"] == "muon":  # 15 products of each hidden matrix with itself a step
         macs += 15 * training["steps"] * network["hidden_layers"] * network["width"] ** 3
     activations = network["hidden_layers"] * network["width"]
-    return Work(START + 4e-9 * activations * samples, products=macs / 1e9)
+    return Work(START, 4e-9 * activations * samples, products=macs / 1e9)
 
 
 def _macs_of_ray(network: Mapping[str, Any]) -> float:
@@ -121,7 +129,7 @@ def _views(layout: Layout, scene: str, batch: str) -> float:
 
 
 def render_references(layout: Layout, scene: str, batch: str) -> Work:
-    return Work(LIGHT_START + 0.8 * _views(layout, scene, batch))
+    return Work(LIGHT_START, 0.8 * _views(layout, scene, batch))
 
 
 def count_violations(layout: Layout, scene: str, method: str, batch: str) -> Work:
@@ -139,7 +147,7 @@ def _query(layout: Layout, method: str, pixels: float, share: float = SEEN) -> W
     rays = 1e6 * share * pixels
     if network["encoding"] == "frequency":
         return Work(products=rays * _macs_of_ray(network) / 1e9)
-    return Work(GRID_RAY * rays if "grids" in network else 0.4e-6 * rays)
+    return Work(seconds=rays * (GRID_RAY if "grids" in network else 0.4e-6))
 
 
 # Frames under area lights.
@@ -179,13 +187,13 @@ def render_frames(layout: Layout, scene: str, frame_set: str, part: str) -> Work
     frames = settings["last"] - settings["first"]
     pixels = frames * _size(layout, frame_set, settings["use"])
     targets = pixels * _lights(layout, frame_set)
-    seconds = START + 2.4 * pixels * (1 + settings["twins"])
+    seconds = 2.4 * pixels * (1 + settings["twins"])
     # Eight places of a pixel, in penumbrae with `samples`² rays each.
-    return Work(seconds, rays=0.33 * targets * settings["samples"] ** 2)
+    return Work(START, seconds, rays=0.33 * targets * settings["samples"] ** 2)
 
 
 def fit_fields(layout: Layout, frame_set: str) -> Work:
-    return Work(START + 17.0 * len(frame_sets.measured_scenes(layout, frame_set)))
+    return Work(START, 17.0 * len(frame_sets.measured_scenes(layout, frame_set)))
 
 
 # Seconds of a field's fit by its cells in a slice, of a direction's tables likewise, and of a ray: all
@@ -198,13 +206,13 @@ def measure_sun_hours(layout: Layout, table: str, scene: str) -> Work:
     directions, cells = 145 + 720 / entry["minutes"], entry["resolution"] ** 2
     pixels = 0.4 * entry["width"] ** 2 / 1.6
     rays = directions * (entry["points"] + pixels) / 2
-    seconds = START + FIT_CELL * cells + 2 * TABLE_CELL * directions * cells + FIELD_RAY * rays
-    return Work(seconds, rays=directions * entry["points"] / 2e6)
+    seconds = FIT_CELL * cells + 2 * TABLE_CELL * directions * cells + FIELD_RAY * rays
+    return Work(START, seconds, rays=directions * entry["points"] / 2e6)
 
 
 def measure_frames(layout: Layout, frame_set: str, measure: str) -> Work:
     tests = frame_sets.tests(layout, frame_set)
-    return Work(LIGHT_START + 10.0 * _pixels(layout, frame_set, tests))
+    return Work(LIGHT_START, 10.0 * _pixels(layout, frame_set, tests))
 
 
 def measure_sensitivity(layout: Layout, frame_set: str, experiment: str) -> Work:
@@ -243,7 +251,7 @@ def _answers(layout: Layout, method: str, pixels: float) -> Work:
     name, number = (counted[1], int(counted[2])) if counted else ("", 0)
     # Of the pixels that face the light; the exact method takes 256 rays in penumbrae alone.
     rays = 0.3 * number * (name == "rt") + 24 * method.startswith("exact")
-    return Work(seconds + number * COUNTED.get(name, 0.0), rays=rays) * pixels
+    return Work(seconds=seconds + number * COUNTED.get(name, 0.0), rays=rays) * pixels
 
 
 # Methods, on views and frames.
@@ -253,31 +261,33 @@ def tune(layout: Layout, frame_set: str, group: str, method: str) -> Work:
     if frame_set == VIEWS:
         pixels = _views(layout, group, HELD_OUT)
         if is_network(method):
-            return Work(START + 2.0 * pixels) + _query(layout, method, pixels)
-        return Work(LIGHT_START + 1.0 * pixels)
+            return Work(START, 2.0 * pixels) + _query(layout, method, pixels)
+        return Work(LIGHT_START, 1.0 * pixels)
     pixels = _pixels(layout, frame_set, frame_sets.validations(layout, frame_set))
     tuned = method_of(method)
     # Those of a last filter answer nothing anew.
     own = {name: values for name, values in tuned.constants.items() if name not in tuned.of_last}
     counts = [len(values) for values in own.values()]
-    tried = math.prod(counts) if tuned.joint else 1 + tuned.rounds * sum(counts)
+    # A search tries nothing twice: of MSSM's constants a second round half as many settings as the first.
+    one_by_one = (1 + sum(counts) - len(counts)) * (1 + tuned.rounds) / 2
+    tried = math.prod(counts) if tuned.joint else one_by_one
     if "passes" in tuned.constants:
         tried /= SHARED
     answers = tried * pixels * _lights(layout, frame_set)
     if frame_methods.has_history(method) and (length := layout.frames(frame_set)["sequence"]):
         answers += sum(counts) * (RUN_IN + length) * _size(layout, frame_set)
-    return Work(LIGHT_START + 5.0 * pixels) + _answers(layout, method, answers)
+    return Work(LIGHT_START, 5.0 * pixels) + _answers(layout, method, answers)
 
 
 def evaluate(layout: Layout, frame_set: str, group: str, method: str) -> Work:
     if frame_set == VIEWS:
         pixels = _views(layout, *group.split("."))
         if is_network(method):
-            return Work(START + 0.7 * pixels) + _query(layout, method, pixels)
-        return Work(LIGHT_START + 0.7 * pixels)
+            return Work(START, 0.7 * pixels) + _query(layout, method, pixels)
+        return Work(LIGHT_START, 0.7 * pixels)
     pixels = _tested(layout, frame_set)
     answers = pixels * _lights(layout, frame_set)
-    return Work(2 * START + 0.5 * answers) + _answers(layout, method, answers)
+    return Work(2 * START, 0.5 * answers) + _answers(layout, method, answers)
 
 
 def answer_frames(layout: Layout, frame_set: str, method: str) -> Work:
@@ -289,13 +299,13 @@ def time_methods(layout: Layout, table: str, group: str) -> Work:
     if not evaluations.on_views(layout, table):
         frame_set = layout.entry("tables", table)["frame_set"]
         answers = 20 * _size(layout, frame_set) * _lights(layout, frame_set)
-        work = Work(2 * START + 2.5 * len(methods))
+        work = Work(2 * START, 2.5 * len(methods))
         for method in filter(is_network, methods):
             work += _answers(layout, method, answers)
         return work
     times = layout.settings["frame_times"]
     pixels = (times["repeats"] + 2) * times["width"] * times["height"] / 1e6
-    work = Work(START + 0.13 * pixels * len(methods))
+    work = Work(START, 0.13 * pixels * len(methods))
     for experiment in filter(None, methods.values()):
         work += _query(layout, experiment, pixels, 0.35)
     return work
@@ -312,7 +322,7 @@ def profile_screen_network(layout: Layout, network: str) -> Work:
     return Work(START, products=2 * repeats * product, convolutions=4 * repeats * frame)
 
 
-# All others take about as long whatever the configuration: seconds by rule.
+# All others start, and do little more, whatever the configuration: seconds by rule.
 CONSTANT = {"get_mesh": 5.0, "prepare_mesh": 2.5, "find_lpips": 6.5, "export_network": 6.0}
 CONSTANT |= {"table": 4.0, "figure": 6.0, "preview_scene": 5.0, "viewer": 6.0, "claims": 10.0}
 CONSTANT |= {"page": 20.0, "all": 0.0, "expected_minutes": 15.0, "restore_weights": START}
