@@ -1,5 +1,6 @@
 """`learning_curves`: trainings at several budgets, from several seeds."""
 
+from collections.abc import Mapping
 from typing import Annotated
 
 from pydantic import Field, model_validator
@@ -42,3 +43,9 @@ class LearningCurve(Model):
             if numbers != sorted(set(numbers)):
                 raise ValueError(f"{key}: {numbers}: must be ascending, without repetition")
         return self
+
+
+def check_curves(curves: Mapping[str, LearningCurve], key: str) -> None:
+    """Check that there are learning curves for a table of them."""
+    if not curves:
+        raise ValueError(f"{key} needs the section `learning_curves`")

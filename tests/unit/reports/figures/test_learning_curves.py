@@ -63,28 +63,6 @@ def test_trainings_law_prediction_and_null(table):
     assert "extrapolated, 90 %" not in names
 
 
-def test_curves_over_frames(tmp_path):
-    """A colour a network, a marker a number of steps; and what its base gives."""
-    falling = 0.004 * (BUDGETS / BUDGETS[0]) ** -0.3
-    names = [f"A, {steps} steps" for steps in (600, 2400)]
-    table = pd.concat(
-        [
-            lines_of(name, "mse", falling / k, null=0.1).assign(base=0.008, scene="layouts")
-            for k, name in enumerate(names, 1)
-        ]
-    )
-    rows = [
-        {"label": name, "experiment": "a", "steps": steps, "scene": "layouts"}
-        for name, steps in zip(names, (600, 2400))
-    ]
-    table.to_csv(tmp_path / "table.csv", index=False)
-    (axes,) = draw(tmp_path / "table.csv", rows, "Curves").axes
-    markers = {line.get_marker() for line in axes.lines if line.get_alpha()}
-    assert markers == {"o", "^"} and axes.get_xlabel() == "training frames"
-    levels = {line.get_linestyle(): line.get_ydata()[0] for line in axes.lines}
-    assert levels[":"] == 80 and axes.get_title().endswith("(no shadow: 1,000)")  # × 10⁻⁴
-
-
 def test_a_scene_of_a_table_is_drawn(table, tmp_path):
     other = table.assign(scene="fence", method="C")
     pd.concat([table, other]).to_csv(tmp_path / "table.csv", index=False)

@@ -1,5 +1,6 @@
-"""Lines of a learning curve: each budget's errors, a hold-out and an extrapolation."""
+"""Lines of a learning curve: each budget's errors, a hold-out and an extrapolation; and their cells."""
 
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -7,14 +8,15 @@ import pandas as pd
 
 from neural_shadows.metrics import power_law
 from neural_shadows.metrics.power_law import Curve
-from neural_shadows.metrics.registry import value_of
-from neural_shadows.reports.data.table import with_ends
+from neural_shadows.metrics.registry import metrics, value_of
+from neural_shadows.reports.data.table import number_cells, with_ends
 
 PREDICTED = with_ends("predicted")
 COLUMNS = [
     *("scene", "method", "metric", "kind", "samples", "mean", "spread", "by_seed", "exponent"),
     *(*PREDICTED, "step", "error", "unlicensed", "no_shadow", "thesis"),
 ]
+ERRORS = ["mean", "spread", *PREDICTED, "no_shadow"]  # columns in a metric's unit
 MEASURED, EXTRAPOLATED = "measured", "extrapolated"  # kinds of rows
 
 
@@ -63,3 +65,60 @@ def by_kind(part: pd.DataFrame) -> tuple[pd.DataFrame, pd.Series]:
     """Split a method's rows of a metric into measured and extrapolated."""
     measured = part["kind"] == MEASURED
     return part[measured], part[~measured].iloc[0]
+
+
+def curve_cells(
+    table: pd.DataFrame,
+    budget: Callable[[float], str],
+    beyond: str,
+    beside: Callable[[pd.Series, pd.Series, str], Mapping[str, str]],
+) -> dict[str, list[str]]:
+    """Format the cells by heading: a row for each method and metric.
+
+    Args:
+        table: rows of `metric_lines`, by scene and method.
+        budget: the heading of a budget. beyond: that of the extrapolation.
+        beside: of a method's largest budget, its extrapolation and the metric's format, more cells.
+    """
+    budgets = sorted(table.loc[table["kind"] == MEASURED, "samples"].unique())
+    lines = []
+    for (scene, method, metric), part in table.groupby(["scene", "method", "metric"], sort=False):
+        described = metrics()[metric]
+        form = f"{{:.{described.digits}f}}"
+        measured, extrapolated = by_kind(_scaled(part, described.factor))
+        last = measured.iloc[-1]
+        exponents = measured["exponent"].dropna()
+        ends = exponents.iloc[[0, -1]] if len(exponents) else exponents
+        reached = measured.set_index("samples").reindex(budgets)
+        spreads = number_cells(reached["spread"], f" ± {form}")
+        means = number_cells(reached["mean"], form)
+        error = "" if np.isnan(last["error"]) else f"{100 * last['error']:+.1f} %"
+        lines.append(
+            {"scene": scene, "method": method, "metric": described.heading}
+            | {budget(samples): a + b for samples, a, b in zip(budgets, means, spreads)}
+            | {
+                "exponent": " → ".join(f"{exponent:.2f}" for exponent in ends),
+                "largest, as predicted": _interval(last, form),
+                "missed by": error,
+                beyond: extrapolated["unlicensed"] or _interval(extrapolated, form),
+            }
+            | beside(last, extrapolated, form)
+            | {"no shadow": form.format(last["no_shadow"])}
+        )
+    return {name: [line[name] for line in lines] for name in lines[0]}
+
+
+def _scaled(part: pd.DataFrame, factor: float) -> pd.DataFrame:
+    """Rows with values in a metric's unit."""
+    if factor == 1:
+        return part
+    errors = part.columns.intersection([*ERRORS, "base", "train_mean", "train_base"])
+    return part.assign(**{name: factor * part[name].astype(float) for name in errors})
+
+
+def _interval(line: pd.Series, form: str) -> str:
+    value, low, high = line[PREDICTED].astype(float)
+    if np.isnan(value):
+        return ""
+    ends = "" if np.isnan(low) else f" [{form}, {form}]".format(low, high)
+    return form.format(value) + ends
