@@ -55,6 +55,8 @@ def test_trainings_law_prediction_and_null(table):
     assert bars[:, 1].tolist() == pytest.approx([1 - 0.23, 1 - 0.18])
     low, high = loss.get_ylim()  # whole in the panel, though drawn beside its place
     assert low < 0.18
+    figure.draw_without_rendering()
+    assert "100B" in [text.get_text() for text in ssim.get_xticklabels()]
     star = next(line for line in ssim.lines if line.get_marker() == "*")
     assert star.get_xydata()[0].tolist() == pytest.approx([THESIS_SAMPLES, 0.03])
     assert len([line for line in ssim.lines if line.get_linestyle() == ":"]) == 1

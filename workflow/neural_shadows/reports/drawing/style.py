@@ -51,7 +51,7 @@ def note_below(figure: Figure, text: str) -> None:
 
 
 def plain_numbers(axis: "Axis") -> None:
-    """Label a logarithmic axis, with its data, by 0.5, 20, 5k, 2M."""
+    """Label a logarithmic axis, with its data, by 0.5, 20, 5k, 2M, 1B."""
     from matplotlib.ticker import LogLocator, NullFormatter
 
     low, high = axis.get_view_interval()
@@ -62,8 +62,8 @@ def plain_numbers(axis: "Axis") -> None:
 
 
 def _short(number: float) -> str:
-    size = min(max(int(log10(number)) // 3, 0), 2)
-    return f"{number / 1000**size:g}{('', 'k', 'M')[size]}"
+    size = min(max(int(log10(number)) // 3, 0), 3)
+    return f"{number / 1000**size:g}{('', 'k', 'M', 'B')[size]}"
 
 
 def frame_picture(axes: Axes, colour: str = "#bbbbbb", width: float = 0.5) -> None:
