@@ -6,9 +6,11 @@ Resumable and reproducible from the seed.
 import hashlib
 import json
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from itertools import count
 from pathlib import Path
+from typing import Any
 
 import torch
 
@@ -30,6 +32,7 @@ from neural_shadows.training.screen_batches import ScreenFrames
 from neural_shadows.training.screen_loss import ScreenLoss
 from neural_shadows.training.screen_run import ScreenRun
 from neural_shadows.training.screen_validation import (
+    Image,
     mse_by_radius,
     network_predictor,
     null_errors,
@@ -101,26 +104,18 @@ def train_on_frames(
     perceptual = None if trunk is None else Perceptual(net, trunk, torch_device, dtype)
     dtype_name = str(dtype).removeprefix("torch.")
     platform = {"seed": seed, "device": torch_device.type, "precision": dtype_name}
+    settings = training.model_dump() | {"perceptual": {"net": net}, "lights": lights} | platform
     header = {
         "name": experiment,
         "network": network.model_dump(),
-        "training": {
-            **training.model_dump(),
-            "perceptual": {"net": net},
-            "lights": lights,
-            **platform,
-        },
+        "training": settings,
         "features": list(model.features),
-        "radii": frames.about.get("given_radii", frames.about["radii"]),
-        "radius_unit": frames.about.get("radius_unit", "metres"),
-        "light": frames.about.get("light"),
+        **_describe_frames(frames, model.features),
         "scenes": list(scenes),
         "perceptual": net,
     }
-    if {*TRACED} & {*buffers_of(model.features)}:
-        header["rays"] = frames.about["rays"]
     loss = ScreenLoss(training.alpha, training.perturbation, perceptual)
-    run = ScreenRun(model, header["training"], frames, loss)
+    run = ScreenRun(model, settings, frames, loss)
     identity = {**header, "data": _digest([*train, *validation, *([trunk] if trunk else [])])}
     code = (STAGES / "train_on_frames.py", form_module(network.form))
     checkpoint = checkpoint_folder(weights, identity, code)
@@ -132,15 +127,13 @@ def train_on_frames(
             run.restore(checkpoint / STATE)
         compute = workers.map if torch_device.type == "cpu" else map
         images = spread_images(held_out, IMAGES)
-
-        def validate() -> None:
-            mse = mse_by_radius(held_out, network_predictor(run, held_out), images, compute)
-            # In alphabetical order, as a checkpoint restores them.
-            run.validations.append({"mse": mse, "step": int(run.step)})
+        validate = partial(_validate, run, held_out, images, compute)
 
         def validate_at(step: int) -> None:
-            before = run.validations[-1]["step"] if run.validations else 0
-            if VALIDATIONS * step // training.steps > VALIDATIONS * before // training.steps:
+            if (
+                VALIDATIONS * step // training.steps
+                > VALIDATIONS * _validated(run) // training.steps
+            ):
                 validate()
 
         numbers = count(int(run.step))
@@ -149,7 +142,7 @@ def train_on_frames(
             run.train_step(next(numbers), workers)
 
         train_to_end(run, advance, experiment, checkpoint, started, "pixels", validate_at)
-        if not run.validations or run.validations[-1]["step"] < int(run.step):
+        if not run.validations or _validated(run) < int(run.step):
             validate()  # after a divergence
         seen = spread_images(frames, len(images))
         errors = {
@@ -166,6 +159,33 @@ def train_on_frames(
     result |= {"perceptual_factor": loss.factor if perceptual is not None else None}
     result |= {"data": describe_data(train, validation)}
     write_json(training_json, {**header, **result, **describe_origin(), "threads": workers.most})
+
+
+def _describe_frames(frames: ScreenFrames, features: Sequence[str]) -> dict[str, Any]:
+    """What a network must know of its frames: lights, and rays if it reads any."""
+    about = frames.about
+    described = {
+        "radii": about.get("given_radii", about["radii"]),
+        "radius_unit": about.get("radius_unit", "metres"),
+        "light": about.get("light"),
+    }
+    if {*TRACED} & {*buffers_of(features)}:
+        described["rays"] = about["rays"]
+    return described
+
+
+def _validate(
+    run: ScreenRun, frames: ScreenFrames, images: Sequence[Image], compute: Callable
+) -> None:
+    """Add the present errors on images of validation to the run's."""
+    mse = mse_by_radius(frames, network_predictor(run, frames), images, compute)
+    # In alphabetical order, as a checkpoint restores them.
+    run.validations.append({"mse": mse, "step": int(run.step)})
+
+
+def _validated(run: ScreenRun) -> int:
+    """The step of the last validation; 0 before the first."""
+    return run.validations[-1]["step"] if run.validations else 0
 
 
 def _check_perturbed(frames: ScreenFrames, train: Sequence[Path], training: ScreenTraining) -> None:
