@@ -35,7 +35,7 @@ def tune(
     """Find the constants of least error, by radius.
 
     Of frames the mean squared error off the geometry's edges, of views the share of points in error.
-    One constant after another, the others at their best so far, or where the search begins: 6 settings of
+    One constant after another, the others at their best so far, or where the search begins: 5 settings of
     two constants with three values each, instead of all 9; as many rounds as `Method.rounds`. Or jointly,
     see `Method.joint`. It begins in the middle of the candidates, without `Method.last`.
 
@@ -141,7 +141,7 @@ def _measure(
 ) -> None:
     """Add to those known by radius the mean errors of frames, (terms,), of settings tried first now.
 
-    Each constant after the first is tried at the value that it has, and later rounds repeat whole settings.
+    A constant after the first is tried at the value that it has, too, and later rounds repeat settings.
     """
     new = [
         [setting for setting in settings if _key(setting) not in errors]

@@ -87,13 +87,13 @@ def test_expected_seconds_of_a_measured_run():
         ("evaluate", {"frame_set": "frames", "group": "all", "method": "cone_8"}, 232),
         ("evaluate", {"frame_set": "frames", "group": "all", "method": "hard"}, 39),
         ("evaluate", {"frame_set": "windows", "group": "all", "method": "kpnsm"}, 120),
-        # Of 16 settings then, of 18 and 21 now.
+        # Of 16 settings then, of 17 and 20 now.
         (
             "tune",
             {"frame_set": "frames", "group": "all", "method": "rt_4_sigma_ffx"},
-            139 * 18 / 16,
+            139 * 17 / 16,
         ),
-        ("tune", {"frame_set": "frames", "group": "all", "method": "pcss"}, 70 * 21 / 16),
+        ("tune", {"frame_set": "frames", "group": "all", "method": "pcss"}, 70 * 20 / 16),
         ("render_frames", {"frame_set": "frames", "scene": "atrium", "part": "train_000"}, 42),
         ("fit_fields", {"frame_set": "frames"}, 352),
         ("measure_frames", {"frame_set": "frames", "measure": "widths.json"}, 49),

@@ -37,7 +37,7 @@ class Rates(TypedDict):
 
 
 def measure_rates(device: str, precision: str) -> Rates:
-    """Measure what networks, rays and process starts take here.
+    """Measure what networks, rays, loops and process starts take here.
 
     Args:
         device, precision: of the networks, see `choose_dtype`.
@@ -87,7 +87,7 @@ def _rays() -> float:
 
 
 def _loops() -> float:
-    """Rate of exponentials of a picture's row, as those of filters."""
+    """Rate of exponentials of 16,384 numbers, as filters compute them."""
     values = np.linspace(-1, 1, 1 << 14, dtype=np.float32)
     return len(values) / 1e6 / _seconds(lambda: np.exp(-values * values), torch.device("cpu"))
 

@@ -16,7 +16,8 @@ COLUMNS = [
     *("scene", "method", "metric", "kind", "samples", "mean", "spread", "by_seed", "exponent"),
     *(*PREDICTED, "step", "error", "unlicensed", "no_shadow", "thesis"),
 ]
-ERRORS = ["mean", "spread", *PREDICTED, "no_shadow"]  # columns in a metric's unit
+# Columns in a metric's unit; the last three of networks on frames alone.
+ERRORS = ["mean", "spread", *PREDICTED, "no_shadow", "base", "train_mean", "train_base"]
 MEASURED, EXTRAPOLATED = "measured", "extrapolated"  # kinds of rows
 
 
@@ -112,7 +113,7 @@ def _scaled(part: pd.DataFrame, factor: float) -> pd.DataFrame:
     """Rows with values in a metric's unit."""
     if factor == 1:
         return part
-    errors = part.columns.intersection([*ERRORS, "base", "train_mean", "train_base"])
+    errors = part.columns.intersection(ERRORS)
     return part.assign(**{name: factor * part[name].astype(float) for name in errors})
 
 
