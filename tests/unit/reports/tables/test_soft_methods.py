@@ -137,3 +137,14 @@ def test_the_legend_is_as_wide_as_the_figure_and_names_what_is_drawn(radii, name
     drawn = figure.axes[0].containers[0].lines[0].get_ydata()[0]  # of `hard`, in the tables' unit
     assert drawn == pytest.approx(1000) and "10⁻⁴" in figure.axes[0].get_ylabel()
     assert figure.axes[0].get_title().endswith("(no shadow: 143)")
+
+
+def test_a_network_is_named_before_others():
+    """So that it keeps its name where there is no room for all."""
+    rows = [
+        {"method": method, "label": label, "number": 1, "radius": 1, "unit": "m", "ms": 10.0}
+        | dict.fromkeys(ERROR_COLUMNS, 0.1)
+        for method, label in (("pcss", "PCSS"), ("kpnsm", "Ours"))
+    ]
+    figure = soft_equal_time.equal_time_figure(pd.DataFrame(rows), [1], title="Equal time")
+    assert [text.get_text() for text in figure.axes[0].texts] == ["Ours", "PCSS"]

@@ -9,7 +9,7 @@ import pandas as pd
 from pydantic import Field
 
 from neural_shadows.evaluation.null_predictors import NO_SHADOW
-from neural_shadows.evaluation.registry import look_of
+from neural_shadows.evaluation.registry import is_network, look_of
 from neural_shadows.reports.data.frame_means import ERROR_COLUMNS, with_shown_errors
 from neural_shadows.reports.data.lights import light_name
 from neural_shadows.reports.data.table import read_table
@@ -90,7 +90,11 @@ def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str
         axes.grid(**style.GRID)
         for axis in (axes.xaxis, axes.yaxis):
             style.plain_numbers(axis)
-        panel_rows.append((axes, methods[["ms", "error", "label"]]))
+        # Where names have no room those of networks stay.
+        placed = methods.sort_values(
+            "method", key=lambda keys: ~keys.map(is_network), kind="stable"
+        )
+        panel_rows.append((axes, placed[["ms", "error", "label"]]))
     panels[0].set_ylabel(f"{name} of visibility, × 10⁻⁴,\nlower is better (bars: 95 % intervals)")
     style.label_panels(panel_rows, 7)
     return figure
