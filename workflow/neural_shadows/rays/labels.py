@@ -127,6 +127,16 @@ def chord_lengths(origins: np.ndarray, directions: np.ndarray) -> np.ndarray:
 
     Origins are (n, 3) and directions (n, 3) or (3,), float32.
     """
-    # In float64: near the rim o·d is small beside its terms.
-    x, y, z = (origins.astype(np.float64) * directions).T
-    return (-2 * (x + y + z)).astype(np.float32)
+    return _chords(origins, np.broadcast_to(directions, origins.shape))
+
+
+@njit(cache=True, nogil=True)
+def _chords(origins, directions):
+    chord = np.empty(len(origins), np.float32)
+    for i in range(len(origins)):
+        # In float64: near the rim o·d is small beside its terms.
+        along = 0.0
+        for axis in range(3):
+            along += np.float64(origins[i, axis]) * np.float64(directions[i, axis])
+        chord[i] = -2 * along
+    return chord

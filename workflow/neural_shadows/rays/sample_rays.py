@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from neural_shadows.files.arrays import new_array
-from neural_shadows.meshes.prepared_mesh import read_prepared
+from neural_shadows.meshes.reading import read_mesh
 from neural_shadows.rays.labels import check_bounds, dual_bounds
 from neural_shadows.rays.poisson_disk import PatternBank
 from neural_shadows.rays.ray_set import read_directions
@@ -48,8 +48,10 @@ def sample_rays(
     """
     directions = read_directions(directions_npy)[first:last]
     points = sampling["points_per_direction"]
-    mesh = read_prepared(mesh_ply)
-    tracer = Tracer(mesh.vertices, mesh.faces)
+    # Without normals, which no ray needs: they take 0.17 s for a dragon of 325,000 faces.
+    vertices, faces = read_mesh(mesh_ply)
+    tracer = Tracer(np.float32(vertices), np.int32(faces))
+    name = f"labels {bounds_npy} (seed {seed})"
     bank = PatternBank((seed, PATTERNS))
 
     with (
@@ -71,6 +73,13 @@ def sample_rays(
             t_lb, t_ub = dual_bounds(tracer, rays, np.repeat(directions[begin:end], points, axis=0))
             bounds[begin:end, :, 0] = t_lb.reshape(-1, points)
             bounds[begin:end, :, 1] = t_ub.reshape(-1, points)
+            check_bounds(
+                directions[begin:end],
+                rays.reshape(-1, points, 3),
+                bounds[begin:end],
+                name=name,
+                first=first + begin,
+            )
 
         begins = range(0, len(directions), -(-_TASK_RAYS // points))
         ends = [*begins, len(directions)][1:]
@@ -81,8 +90,6 @@ def sample_rays(
         ):
             for begin, end, _ in zip(begins, ends, pool.map(sample, begins, ends), strict=True):
                 bar.update((end - begin) * points)
-        name = f"labels {bounds_npy} (seed {seed})"
-        check_bounds(directions, origins, bounds, name=name, first=first)
 
 
 if "snakemake" in globals():
