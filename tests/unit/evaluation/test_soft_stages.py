@@ -2,6 +2,7 @@
 
 import json
 import time
+from itertools import product
 
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ from neural_shadows.evaluation.measured_frames import measured_frames
 from neural_shadows.evaluation.method import Method
 from neural_shadows.evaluation.metric_files import read_metrics
 from neural_shadows.evaluation.registry import METHODS
+from neural_shadows.evaluation.sequences import squared_error
 from neural_shadows.evaluation.time_frames import medians
 from neural_shadows.evaluation.time_methods import time_methods
 from neural_shadows.evaluation.tune import tune as tune_stage
@@ -178,6 +180,36 @@ def test_a_history_is_measured_after_a_rest_in_the_first_view(folder):
     assert values["instability"] < 3 * 0.5**RUN_IN < 0.5 * values["instability_reference"]
 
 
+def test_errors_of_sequences_are_off_the_edges_of_geometry(folder):
+    """There an exact shadow of pixels' centres errs, too, and a blur may err less."""
+    frames = [*measured_frames([folder / "camera_000.json"], [])]
+
+    def exact_but_at_edges(number):
+        now = frames[number]
+        return np.where(now.part.edges[number], 1 - now.target[now.middle], now.target[now.middle])
+
+    def sequence(radius):
+        return lambda frame, was: exact_but_at_edges(max(frame.number - RUN_IN, 0)).ravel()[
+            frame.surface.pixel
+        ]
+
+    method = Method(None, sequence=sequence)
+    _, values, _ = flicker(frames, method, [{}] * len(RADII), lambda: None)
+    assert np.mean([frame.off_edges.sum() / frame.valid.sum() for frame in frames]) < 0.95
+    assert values["mse_sequence"] < 1e-12 < 1e-4 < values["mse_taa"]
+    assert squared_error(frames, method, {}) < 1e-12
+
+
+def test_constants_that_are_searched_jointly_are_so_for_sequences(folder):
+    """One after the other they can end where no other single one helps."""
+    out, sequence = folder / "rt_1_svgf.json", folder / "validation_both_000.json"
+    tune_stage([folder / "validation_000.json"], [], [], out, sequence=sequence, method="rt_1_svgf")
+    history, constants = json.loads(out.read_text())["history"], METHODS["rt_1_svgf"].constants
+    tried = [{name: each[name] for name in constants} for each in history["tried"]]
+    assert tried == [dict(zip(constants, values)) for values in product(*constants.values())]
+    assert history["error"] == min(each["mse"] for each in history["tried"])
+
+
 def test_constants_for_sequences_are_chosen_with_the_history(folder):
     """And are those that an evaluation takes there, by any radius."""
     out, sequence = folder / "rt_1_ffx.json", folder / "validation_both_000.json"
@@ -289,14 +321,24 @@ def test_a_method_pays_for_what_it_sees_at_other_places(folder, monkeypatch):
     assert len(calls) > 2 and len(traced) == len(calls)
 
 
-def test_a_window_bears_its_share_of_the_map(tmp_path):
-    """A quarter of the frame's width and half of its height."""
+def test_a_window_bears_its_share_of_its_frame(tmp_path, monkeypatch):
+    """A quarter of the frame's width and half of its height; a method's work on all of a map is shared, too."""
+    sizes = []
+
+    def answer(frame, radius):
+        sizes.append((frame.surface.width, frame.surface.height))
+        time.sleep(0.04)
+        return np.ones(len(frame.from_light), np.float32)
+
     window = {"of": [192, 48], "light_map": {"kind": "cube", "resolution": 64}}
     part = render_part(tmp_path / "blinds", "test", window, last=1, samples=1)
+    monkeypatch.setattr(timing, "open_methods", lambda name, inputs: lambda scene: Method(answer))
     out = tmp_path / "times.json"
-    time_methods([part], [], [], [], [], out, methods={"hard": None}, repeats=1)
+    time_methods([part], [], [], [], [], out, methods={"mine": None}, repeats=1)
     times = json.loads(out.read_text())
-    assert times["map_share"] == 1 / 8 and times["maps"]["64"]["ms"] > 0
+    assert times["share"] == 1 / 8 and times["maps"]["64"]["ms"] > 0
+    assert set(sizes) == {(48, 24), (192, 48)} and sizes[-1] == (192, 48)
+    assert all(5 <= ms < 40 for ms in times["methods"]["mine"]["ms"])
     assert "12.5% of a whole frame's" in describe_times(times)[0]
 
 

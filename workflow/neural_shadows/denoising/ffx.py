@@ -90,8 +90,11 @@ class FfxFilter:
                 first = np.clip(light, 0, 1)
         return first, np.clip(light, 0, 1)
 
-    def single(self, visibility: np.ndarray, surface: Surface) -> np.ndarray:
-        """Smooth a picture (H, W) float32 without history."""
+    def single(
+        self, visibility: np.ndarray, surface: Surface, *, sigma: float | None = None
+    ) -> np.ndarray:
+        """Smooth a picture (H, W) float32 without history; `sigma`: from now on, if given."""
+        self.sigma = self.sigma if sigma is None else sigma
         self.see(surface.depth_image(), surface.image(surface.n))
         _, noise = self.neighbourhood(visibility)
         return self.smooth(visibility, (_BOOST - 1) * noise)[1]

@@ -107,9 +107,16 @@ class SigmaFilter:
         return np.clip(light, 0, 1)
 
     def single(
-        self, visibility: np.ndarray, penumbra: np.ndarray, surface: Surface, turned: int = 0
+        self,
+        visibility: np.ndarray,
+        penumbra: np.ndarray,
+        surface: Surface,
+        turned: int = 0,
+        *,
+        reach: float | None = None,
     ) -> np.ndarray:
-        """Smooth a picture (H, W) float32 without history; see `smooth`."""
+        """Smooth a picture (H, W) float32 without history; see `smooth`. `reach`: from now on, if given."""
+        self.reach = self.reach if reach is None else reach
         pixel = surface.depth_image() / np.float32(surface.camera.focal(surface.height))
         self.see(surface.image(surface.p), surface.image(surface.n_g), pixel)
         return self.smooth(visibility, penumbra, turned)

@@ -36,12 +36,11 @@ class SigmaFfxTrials:
         Args:
             reach: see `SigmaFilter`. sigma: see `FfxFilter`.
         """
-        self._wide.reach, self._fine.sigma = reach, sigma
         of = visibility, penumbra, surface, reach
         if len(self._of) < len(of) or any(a is not b for a, b in zip(of, self._of)):
-            self._picture = self._wide.single(visibility, penumbra, surface)
+            self._picture = self._wide.single(visibility, penumbra, surface, reach=reach)
             self._of = of
-        return self._fine.single(self._picture, surface)
+        return self._fine.single(self._picture, surface, sigma=sigma)
 
 
 class TemporalSigmaFfx:
@@ -63,5 +62,6 @@ class TemporalSigmaFfx:
         was: np.ndarray | None = None,
     ) -> np.ndarray:
         """The next frame's picture, (H, W) float32; see `TemporalSigma.next_frame`."""
+        # With taps turned from frame to frame, as in `TemporalSigma`, errors and flicker were the same.
         wide = self._wide.single(visibility, penumbra, surface)
         return self._fine.next_frame(wide, surface, was)

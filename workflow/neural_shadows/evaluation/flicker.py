@@ -8,7 +8,7 @@ import numpy as np
 from neural_shadows.evaluation.answers import flicker_name
 from neural_shadows.evaluation.measured_frames import MeasuredFrame
 from neural_shadows.evaluation.method import Constants, Method
-from neural_shadows.evaluation.sequences import answer_sequence
+from neural_shadows.evaluation.sequences import answer_sequence, error_of
 from neural_shadows.metrics.registry import measure
 from neural_shadows.rendering.reprojection import looked_up
 
@@ -22,7 +22,7 @@ def flicker(
     """Instability over a sequence, of the middle radius.
 
     Of the method, the exact shadow, and the method's frames each averaged with the one before
-    (`_taa`); with squared errors. One frame of history is what Datta et al. 2022 (4) compare with.
+    (`_taa`); with squared errors off the geometry's edges. One frame of history is what Datta et al. 2022 (4) compare with.
     Returns: the columns of the metrics, the metrics by name, and mean changes of each pixel,
         (height, width), by name, see `answers`.
     """
@@ -37,7 +37,7 @@ def flicker(
     key = before.key(k) | {"frame": 0}
     for now, visibility, (accepted, pixels_before) in images:
         pixel, pixels_before = now.frame.surface.pixel[accepted], pixels_before[:, accepted]
-        target, valid = now.target[k], now.valid
+        target = now.target[k]
         blended = visibility.copy()
         blended.ravel()[pixel] += (looked_up(last, pixels_before) - blended.ravel()[pixel]) / 2
         for name, old, new in (
@@ -48,7 +48,7 @@ def flicker(
             changes[name].append(new.ravel()[pixel] - looked_up(old, pixels_before))
             sums[name][pixel] += np.abs(changes[name][-1])
         for name, image in (("_sequence", visibility), ("_taa", blended)):
-            errors[name].append(float(np.square(image - target)[valid].mean()))
+            errors[name].append(error_of(now, image))
         before, last, averaged = now, visibility, blended
         advance()
     pixels = part.about["width"] * part.about["height"]

@@ -101,6 +101,11 @@ class MeasuredFrame:
         edges = self.part.edges
         return None if edges is None else self.valid & ~edges[self.number]
 
+    @property
+    def judged(self) -> np.ndarray:
+        """Valid pixels by whose errors constants are chosen, bool: off edges where these are known."""
+        return self.valid if self.off_edges is None else self.off_edges
+
     def picture(self, channel: str) -> np.ndarray:
         """One of its buffers, (height, width) float32.
 
@@ -137,9 +142,7 @@ class MeasuredFrame:
         self, method: Method, tried: Sequence[Sequence[Constants]]
     ) -> tuple[list[np.ndarray], float]:
         """Squared errors off edges by radius (settings, 1), and the pixels."""
-        target, mask = self.target, self.off_edges
-        if mask is None:
-            mask = self.valid
+        target, mask = self.target, self.judged
         squares = [np.zeros((len(settings), 1)) for settings in tried]
         by_constants: dict[str, np.ndarray] = {}  # of a method independent of the radius
         for k, settings in enumerate(tried):

@@ -39,14 +39,16 @@ def answer_sequence(
         before = now
 
 
-def squared_error(
-    frames: Iterable[MeasuredFrame], method: Method, constants: Sequence[Constants]
-) -> float:
+def squared_error(frames: Sequence[MeasuredFrame], method: Method, constants: Constants) -> float:
     """Mean squared error of a sequence's frames after the first, by the middle radius."""
-    _, *later = answer_sequence(frames, method, constants)
-    return float(
-        np.mean([np.square(image - f.target[f.middle])[f.valid].mean() for f, image, _ in later])
-    )
+    of_all = [constants] * len(frames[0].part.radii)
+    _, *later = answer_sequence(frames, method, of_all)
+    return float(np.mean([error_of(frame, image) for frame, image, _ in later]))
+
+
+def error_of(frame: MeasuredFrame, image: np.ndarray) -> float:
+    """Mean squared error of an image (H, W) by the middle radius, off the geometry's edges."""
+    return float(np.square(image - frame.target[frame.middle])[frame.judged].mean())
 
 
 def _seen(before: MeasuredFrame, now: MeasuredFrame) -> tuple[Seen, np.ndarray]:

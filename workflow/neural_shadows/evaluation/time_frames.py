@@ -15,6 +15,7 @@ from neural_shadows.evaluation.method import Constants, Method, visibility
 from neural_shadows.evaluation.registry import frame_method
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.frames.soft_frame import SoftFrame
+from neural_shadows.rendering.surface import see_surface
 from neural_shadows.running.progress import progress_bar
 
 # Milliseconds, of which a disturbance is a small share. All methods of the default table three
@@ -27,7 +28,8 @@ def times(
 ) -> dict[str, Any]:
     """Time each method on each part's first frame, all radii.
 
-    Methods take turns, so that other load disturbs all of them alike.
+    Methods take turns, so that other load disturbs all of them alike. Of a window the whole frame is timed,
+    and it bears its share: a window alone would pay for the filtering of all of a map.
 
     Args:
         inputs: test parts, one a scene; weights of networks, each in a folder of its experiment's
@@ -36,8 +38,8 @@ def times(
 
     Returns: of each method and radius `ms`, the median over frames of the median over `repeats`, one
         if it takes long, of the method alone; its light `map`, the numbers in a texel, and other bytes
-        held. By the texels of a side, `maps`: the `ms` of rasterising it, of which a window bears its
-        `map_share`, and its `texels`.
+        held. By the texels of a side, `maps`: the `ms` of rasterising it, and its `texels`. All `ms` are a
+        window's `share` of those of its whole frame.
 
     Raises:
         InputError: an input file cannot be read.
@@ -52,22 +54,25 @@ def times(
     shares = [_share(measured.frame) for measured in frames]
     with progress_bar(len(frames) * len(radii), "frames", "time methods") as bar:
         for number, measured in enumerate(frames):
-            frame = _prepared(measured.frame)
+            window, share = _prepared(measured.frame), shares[number]
+            frame = _prepared(_whole(window))
             for side, times in maps.items():
-                times.append(shares[number] * _map_ms(frame, side, repeats))
+                times.append(share * _map_ms(frame, side, repeats))
             for k, radius in enumerate(measured.part.radii):
                 works = {
-                    name: partial(_answer, method, frame, radius, chosen[name][k])
+                    name: partial(_answer, method, constants=chosen[name][k], radius=radius)
                     for name, method in timed.items()
                     if method.changes_at(chosen[name], k)
                 }
                 # What is compiled, and what a method makes of a scene: a point light's may be another
                 # path than that of all others. Cones through fields took five times as long at first.
                 for work in works.values() if k <= 1 else ():
-                    work()
-                milliseconds = medians(works, repeats)
+                    work(window)
+                of_frame = {name: partial(work, frame) for name, work in works.items()}
+                milliseconds = medians(of_frame, repeats)
                 for name, each in answer_ms.items():
-                    each[number, k] = milliseconds.get(name, each[number, k - 1])
+                    ms = milliseconds.get(name)
+                    each[number, k] = each[number, k - 1] if ms is None else share * ms
                 bar.update()
     return {
         "frames": len(frames),
@@ -80,7 +85,7 @@ def times(
             }
             for side, times in maps.items()
         },
-        "map_share": float(np.median(shares)),
+        "share": float(np.median(shares)),
         "methods": {
             name: {
                 "ms": np.median(each, axis=0).tolist(),
@@ -120,6 +125,16 @@ def _share(frame: SoftFrame) -> float:
     return surface.width * surface.height / (window.full_width * window.full_height)
 
 
+def _whole(frame: SoftFrame) -> SoftFrame:
+    """The whole frame of a window, or the frame itself."""
+    window = frame.surface.camera.window
+    if window is None:
+        return frame
+    camera = replace(frame.surface.camera, window=None)
+    surface = see_surface(frame.scene, camera, window.full_width, window.full_height)
+    return replace(frame, surface=surface)
+
+
 def _held(method: Method, frames: Sequence[MeasuredFrame]) -> float:
     """Median bytes kept of the scene, over frames."""
     return (
@@ -130,15 +145,13 @@ def _held(method: Method, frames: Sequence[MeasuredFrame]) -> float:
 
 
 def _prepared(frame: SoftFrame) -> SoftFrame:
-    """The frame with points, normals and map computed."""
-    for name in ("from_light", "cosines", "bias", "starts", "depths"):
+    """The frame with points, normals and map computed, as a renderer has them."""
+    for name in ("from_light", "cosines", "bias", "starts", "depths", "shown"):
         getattr(frame, name)
     return frame
 
 
-def _answer(
-    method: Method, frame: SoftFrame, radius: float, constants: Mapping[str, float]
-) -> np.ndarray:
+def _answer(method: Method, frame: SoftFrame, *, radius: float, constants: Constants) -> np.ndarray:
     """A method's answer, without what it kept: surfaces at other places in the pixels, its rays."""
     anew, kept = replace(frame), ("_by_places", "kept")
     vars(anew).update({k: v for k, v in vars(frame).items() if k not in kept})

@@ -1,7 +1,8 @@
 """Stage: a method's constants of least error, on validation frames."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from itertools import product
 from pathlib import Path
 from types import ModuleType
@@ -34,20 +35,21 @@ def tune(
 ) -> None:
     """Find the constants of least error, by radius.
 
-    Of frames the mean squared error off the geometry's edges, of views the share of points in error.
+    Of frames and sequences the mean squared error off the geometry's edges, of views the share of points in
+    error.
     One constant after another, the others at their best so far, or where the search begins: 5 settings of
     two constants with three values each, instead of all 9; as many rounds as `Method.rounds`. Or jointly,
     see `Method.joint`. It begins in the middle of the candidates, without `Method.last`.
 
     Args:
         frames: validation frames of all scenes, or held-out views of one, which no evaluation uses.
-        sequence: on which a method with a history has its constants chosen once more, at the middle
-            radius, for sequences alone; None of a method without.
+        sequence: on which a method with a history has its constants chosen once more, from those of the
+            middle radius on, for sequences alone; None of a method without.
         meshes, weights, fields, scene, device, precision: see `Inputs`.
         constants_json: `candidates` by constant; by radius, as `radii`, the best `constants`, their
             `error`, `tried`, errors of the last constant's candidates or of all settings in order,
             by term, and `at_end`, the constants whose best value may lie beyond the candidates;
-            `history`, of a sequence: likewise `constants`, `tried` and `at_end`.
+            `history`, of a sequence: likewise.
         method: the method's key, without a bias.
 
     Raises:
@@ -57,37 +59,61 @@ def tune(
     inputs = Inputs(frames, meshes, weights, fields=fields, scene=scene, **settings)
     kind = module_of(KIND, are_views(frames))
     tuned = kind.open_methods(method, inputs)(None)
-    candidates = {name: list(values) for name, values in tuned.constants.items()}
     by_radius = [{"constants": _begin(tuned)} for _ in range(kind.count_radii(frames[0]))]
-    ends = [dict.fromkeys(candidates, False) for _ in by_radius]
-    known = [{} for _ in by_radius]
-    for names in _searched(tuned):
-        grid = [dict(zip(names, values)) for values in product(*map(candidates.get, names))]
-        tried = [[best["constants"] | values for values in grid] for best in by_radius]
-        title = f"tune {' and '.join(names)} of {method}"
-        _measure(kind, inputs, tuned, tried, known, title)
-        for best, settings, errors, at_end in zip(by_radius, tried, known, ends):
-            terms = np.array([errors[_key(setting)] for setting in settings])
-            sums = terms.sum(axis=1)
-            chosen = _least(settings, sums, names[::-1] if tuned.joint else [])
-            best |= {"constants": settings[chosen], "error": sums[chosen]}
-            best["tried"] = [
-                setting | dict(zip(kind.ERRORS, each))
-                for setting, each in zip(settings, terms.tolist())
-            ]
-            for name in names:
-                at_end[name] = _at_end(name, candidates[name], settings, sums, chosen)
-    for best, at_end in zip(by_radius, ends):
-        best["at_end"] = [name for name in candidates if at_end[name]]
+    title = f"of {method}"
+    _search(tuned, by_radius, kind.ERRORS, partial(_frame_errors, kind, inputs, tuned, title))
+    about = {"method": method, "frames": kind.count_frames(frames), "radii": by_radius}
+    about["candidates"] = {name: list(values) for name, values in tuned.constants.items()}
+    if sequence:
+        middle = by_radius[len(by_radius) // 2]["constants"]
+        about["history"] = {"constants": middle}
+        in_sequence = [*kind.open_frames(replace(inputs, frames=[sequence]))]
+        errors = partial(_sequence_errors, in_sequence, tuned, f"the history {title}")
+        _search(tuned, [about["history"]], ["mse"], errors)
+    for best in (*by_radius, *([about["history"]] if sequence else [])):
         for name in best["at_end"]:
             value = f"{name.replace('_', ' ')}, {best['constants'][name]}"
             print(f"{method}: the best {value}, ends the search")  # the table says so, too
-    about = {"method": method, "frames": kind.count_frames(frames), "candidates": candidates}
-    about |= {"radii": by_radius}
-    if sequence:
-        in_sequence = replace(inputs, frames=[sequence])
-        about["history"] = _with_history(in_sequence, method, candidates, by_radius)
     write_json(constants_json, about | describe_origin())
+
+
+def _search(
+    method: Method,
+    begins: Sequence[dict[str, Any]],
+    terms: Sequence[str],
+    measure: Callable[[str, list[list[Constants]]], list[np.ndarray]],
+) -> None:
+    """Choose constants, of several lights at once, from the `constants` of each on; see `tune`.
+
+    Args:
+        begins: get `constants`, `error`, `tried` and `at_end`.
+        terms: names of the terms of an error. measure: of what is searched, in words, and of the settings of
+            each light, their errors (settings, terms) by light. No setting is measured twice: a constant
+            after the first is tried at the value that it has, too, and later rounds repeat settings.
+    """
+    candidates = method.constants
+    ends = [dict.fromkeys(candidates, False) for _ in begins]
+    known: list[dict[tuple[float, ...], np.ndarray]] = [{} for _ in begins]
+    for names in _searched(method):
+        grid = [dict(zip(names, values)) for values in product(*map(candidates.get, names))]
+        tried = [[best["constants"] | values for values in grid] for best in begins]
+        new = [[s for s in each if _key(s) not in errors] for each, errors in zip(tried, known)]
+        if any(new):
+            measured = measure(" and ".join(names), new)
+            for errors, settings, values in zip(known, new, measured, strict=True):
+                errors |= zip(map(_key, settings), values, strict=True)
+        for best, settings, errors, at_end in zip(begins, tried, known, ends):
+            values = np.array([errors[_key(setting)] for setting in settings])
+            sums = values.sum(axis=1)
+            chosen = _least(settings, sums, names[::-1] if method.joint else [])
+            best |= {"constants": settings[chosen], "error": sums[chosen]}
+            best["tried"] = [
+                setting | dict(zip(terms, each)) for setting, each in zip(settings, values.tolist())
+            ]
+            for name in names:
+                at_end[name] = _at_end(name, candidates[name], settings, sums, chosen)
+    for best, at_end in zip(begins, ends):
+        best["at_end"] = [name for name in candidates if at_end[name]]
 
 
 def _begin(method: Method) -> Constants:
@@ -105,58 +131,38 @@ def _searched(method: Method) -> list[list[str]]:
     return [[name] for name in method.constants] * method.rounds
 
 
-def _with_history(
-    inputs: Inputs,
-    method: str,
-    candidates: Mapping[str, Sequence[float]],
-    by_radius: Sequence[Mapping[str, Any]],
-) -> dict[str, Any]:
-    """Constants of least squared error over a sequence, one after another, from those of frames on."""
-    kind, answers = module_of(KIND, views=False), sequences_module()
-    frames, tuned = [*kind.open_frames(inputs)], kind.open_methods(method, inputs)(None)
-    best: dict[str, Any] = {"constants": by_radius[len(by_radius) // 2]["constants"], "at_end": []}
-    total = len(frames) * sum(map(len, candidates.values()))
-    with progress_bar(total, "frames", f"tune the history of {method}") as bar:
-        for name, values in candidates.items():
-            settings = [best["constants"] | {name: value} for value in values]
-            errors = []
-            for constants in settings:
-                errors.append(answers.squared_error(frames, tuned, [constants] * len(by_radius)))
-                bar.update(len(frames))
-            chosen = int(np.argmin(errors))
-            best["constants"] = settings[chosen]
-            best["tried"] = [setting | {"mse": mse} for setting, mse in zip(settings, errors)]
-            if _at_end(name, values, settings, errors, chosen):
-                best["at_end"].append(name)
-    return best
-
-
-def _measure(
+def _frame_errors(
     kind: ModuleType,
     inputs: Inputs,
     method: Method,
-    tried: Sequence[Sequence[Constants]],
-    known: Sequence[dict[tuple[float, ...], np.ndarray]],
     title: str,
-) -> None:
-    """Add to those known by radius the mean errors of frames, (terms,), of settings tried first now.
-
-    A constant after the first is tried at the value that it has, too, and later rounds repeat settings.
-    """
-    new = [
-        [setting for setting in settings if _key(setting) not in errors]
-        for settings, errors in zip(tried, known)
-    ]
-    if not any(new):
-        return
-    sums, count = [0.0] * len(new), 0
-    with progress_bar(kind.count_frames(inputs.frames), "frames", title) as bar:
+    names: str,
+    settings: list[list[Constants]],
+) -> list[np.ndarray]:
+    """Mean errors of frames, (settings, terms) by radius; see `_search`."""
+    sums, count = [0.0] * len(settings), 0
+    with progress_bar(kind.count_frames(inputs.frames), "frames", f"tune {names} {title}") as bar:
         for frame in kind.open_frames(inputs):
-            errors, weight = frame.errors_of(method, new)
+            errors, weight = frame.errors_of(method, settings)
             sums, count = [a + b for a, b in zip(sums, errors)], count + weight
             bar.update()
-    for settings, errors, total in zip(new, known, sums):
-        errors |= zip(map(_key, settings), total / count)
+    return [total / count for total in sums]
+
+
+def _sequence_errors(
+    frames: Sequence[Any],
+    method: Method,
+    title: str,
+    names: str,
+    settings: list[list[Constants]],
+) -> list[np.ndarray]:
+    """Mean squared errors over a sequence, of one light, (settings, 1); see `_search`."""
+    squared_error, errors = sequences_module().squared_error, []
+    with progress_bar(len(frames) * len(settings[0]), "frames", f"tune {names} {title}") as bar:
+        for constants in settings[0]:
+            errors.append(squared_error(frames, method, constants))
+            bar.update(len(frames))
+    return [np.array(errors)[:, None]]
 
 
 def _key(setting: Constants) -> tuple[float, ...]:

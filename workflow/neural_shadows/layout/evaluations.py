@@ -101,9 +101,10 @@ def timed_files(layout: Layout, table: str, group: str) -> dict[str, Any]:
             "fields": [],
         }
     names = [name for name in timed_methods(layout, table, group).values() if name]
+    tests = frame_sets.first_tests(layout, frame_set)
     return {
-        # The first ones of two scenes.
-        "frames": frame_sets.first_tests(layout, frame_set)[:2],
+        # Of the first and of the last scene: where networks are trained on some, one of these and one unseen.
+        "frames": [*dict.fromkeys(tests[end] for end in (0, -1))],
         "meshes": frame_sets.all_meshes(layout, frame_set),
         "constants": tables.constants(layout, table),
         "weights": [layout.paths.network("weights.safetensors", name) for name in names],

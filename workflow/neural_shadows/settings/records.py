@@ -228,7 +228,7 @@ class SoftTimes(TypedDict, total=False):
 
     methods: dict[str, dict[str, Any]]
     maps: dict[str, dict[str, float]]
-    map_share: float
+    share: float
     frames: int
     repeats: int
     once_above_ms: float

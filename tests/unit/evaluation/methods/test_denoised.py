@@ -107,7 +107,7 @@ def test_a_time_is_of_all_that_a_frame_takes(frame, monkeypatch):
     for name in ("variance", "passes"):
         monkeypatch.setattr(SvgfFilter, name, counted(getattr(SvgfFilter, name), name))
     for _ in range(2):
-        time_frames._answer(method("svgf", 1), frame, RADIUS, {"passes": 1})
+        time_frames._answer(method("svgf", 1), frame, radius=RADIUS, constants={"passes": 1})
     assert calls == 2 * ["rays", "variance", "passes"]
 
 

@@ -95,27 +95,16 @@ def sequence_denoiser(
     return step
 
 
-def _single(kind: type) -> Callable:
-    """A `Denoiser`'s `single`; one filter of a kind is cached.
+def _kept(kind: type) -> Callable:
+    """A `Denoiser`'s `single` by one object for all constants, which share what they can.
 
-    50 MB for a million pixels, and the frames of a set have one size.
+    The last is kept: of a million pixels 50 MB, and the frames of a set have one size.
     """
     cached = lru_cache(maxsize=1)(kind)
 
     def single(*pictures_and_surface, **constants: float) -> np.ndarray:
-        filter_ = cached(*pictures_and_surface[0].shape, **constants)
-        return filter_.single(*pictures_and_surface)
-
-    return single
-
-
-def _tried(kind: type) -> Callable:
-    """A `Denoiser`'s `single` by one object for all constants, which share what they can."""
-    cached = lru_cache(maxsize=1)(kind)
-
-    def single(*pictures_and_surface, **constants: float) -> np.ndarray:
-        trials = cached(*pictures_and_surface[0].shape)
-        return trials.single(*pictures_and_surface, **constants)
+        filter_ = cached(*pictures_and_surface[0].shape)
+        return filter_.single(*pictures_and_surface, **constants)
 
     return single
 
@@ -128,10 +117,10 @@ def _oidn(
 
 
 BY_KEY = {
-    "svgf": Denoiser(_tried(SvgfTrials), TemporalFilter),
-    "ffx": Denoiser(_single(FfxFilter), TemporalFfx),
-    "sigma": Denoiser(_single(SigmaFilter), TemporalSigma, distances=True),
-    "sigma_ffx": Denoiser(_tried(SigmaFfxTrials), TemporalSigmaFfx, distances=True),
+    "svgf": Denoiser(_kept(SvgfTrials), TemporalFilter),
+    "ffx": Denoiser(_kept(FfxFilter), TemporalFfx),
+    "sigma": Denoiser(_kept(SigmaFilter), TemporalSigma, distances=True),
+    "sigma_ffx": Denoiser(_kept(SigmaFfxTrials), TemporalSigmaFfx, distances=True),
     "oidn_fast": Denoiser(partial(_oidn, quality="fast")),
     "oidn": Denoiser(partial(_oidn, quality="high")),
 }

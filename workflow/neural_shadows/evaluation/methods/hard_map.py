@@ -10,6 +10,7 @@ from neural_shadows.evaluation.method import Method
 if TYPE_CHECKING:
     from neural_shadows.frames.soft_frame import SoftFrame
 
+# Its bias is one texel's: times a third or three, 10 to 65 % and 2 to 30 % more were left, in frames and windows.
 LOOK = Look("shadow map", GREY, "s", "■", "One test a pixel against the light map.")
 
 

@@ -43,10 +43,11 @@ def of_occluders(
     penumbra = valid & (target >= UMBRA) & (target <= LIT) & (widths > 0)
     threshold = np.percentile(widths[penumbra], WIDEST) if penumbra.any() else np.inf
     behind = valid & (solids > 0)
-    counts, of_behind = np.minimum(solids[behind], MOST), square[behind]
+    counts, of_behind = solids[behind].astype(np.float64), square[behind]
     errors = {"mse_widest": _mean(square[penumbra & (widths >= threshold)])}
     errors |= {
-        f"mse_solids_{number}": _mean(of_behind[counts == number]) for number in range(1, MOST + 1)
+        f"mse_solids_{number}": _mean(of_behind[np.minimum(counts, MOST) == number])
+        for number in range(1, MOST + 1)
     }
     errors |= {"mse_behind": _mean(of_behind), "solids_behind": _mean(counts)}
     return errors | {"mse_per_solid": _slope(counts, of_behind)}

@@ -299,11 +299,12 @@ def time_methods(layout: Layout, table: str, group: str) -> Work:
     methods = evaluations.timed_methods(layout, table, group)
     if not evaluations.on_views(layout, table):
         frame_set = layout.entry("tables", table)["frame_set"]
-        answers = 20 * _size(layout, frame_set) * _lights(layout, frame_set)
-        work = Work(START, START + 2.5 * len(methods))
-        for method in filter(is_network, methods):
-            work += _answers(layout, method, answers)
-        return work
+        # Two frames; what takes little up to three times. Of windows whole frames, after the window once.
+        whole, size = layout.frames(frame_set).get("of"), _size(layout, frame_set)
+        pixels = size + math.prod(whole) / 1e6 if whole else 3 * size
+        answers = 2 * pixels * _lights(layout, frame_set)
+        work = Work(START, START + 0.5 * len(methods))
+        return sum((_answers(layout, method, answers) for method in methods), work)
     times = layout.settings["frame_times"]
     pixels = (times["repeats"] + 2) * times["width"] * times["height"] / 1e6
     work = Work(START, 0.13 * pixels * len(methods))

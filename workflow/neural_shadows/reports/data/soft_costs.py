@@ -20,9 +20,9 @@ def describe_times(times: SoftTimes) -> list[str]:
     """Describe the timing; nothing without times."""
     if not times["methods"]:
         return []
-    share = times["map_share"]
+    share = times["share"]
     maps = ", ".join(f"{one['ms']:.1f} of {side}²" for side, one in times["maps"].items())
-    part = f": {share:.1%} of a whole frame's, of which it is a window" if share < 1 else ""
+    part = f"; {share:.1%} of a whole frame's, of which it is a window" if share < 1 else ""
     return [
         f"ms: median of {times['frames']} frames, each the median of {times['repeats']}, or one above "
         f"{times['once_above_ms']} ms, one thread of {times['machine']['cpu']}; with a light map "

@@ -42,13 +42,16 @@ def table(soft: TrainedFrames) -> Table:
         "method": table["label"],
         **{f"E, {kind}": numbers(table[f"e_{kind}"], "{:.4f}") for kind in kinds},
         **{f"exact, {kind}": numbers(table[f"reference_{kind}"], "{:.4f}") for kind in kinds},
-        f"{metrics()['mse'].label} in sequences": metric_column(table, "mse", "mse_sequence"),
+        f"{metrics()['mse'].label} in sequences, off edges": metric_column(
+            table, "mse", "mse_sequence"
+        ),
         f"{metrics()['mse'].label} at edges": metric_column(table, "mse_edge"),
     }
     notes = [
         "E: mean of exp(3 |change|) − 1 along a point's motion over a sequence (3.4), by what moves "
         "in it. Exact: E of the exact shadow, which truly changes with a moving light. Blur lowers E, "
-        "so the squared error stands beside it.",
+        "so the squared error stands beside it, off the geometry's edges, where a blur has less than the exact "
+        "shadow of a pixel's centre.",
         f"Sequences have a {lights[len(lights) // 2]}. TAA: each frame averaged with the one before, "
         f"at points seen in both. What has a history begins with {RUN_IN} frames at rest in the first "
         "view. Edges: within 3 pixels of a point light's shadow edges, in test frames, of all lights.",
@@ -63,8 +66,8 @@ def temporal_table(soft: TrainedFrames) -> pd.DataFrame:
     A null predictor among the methods has a row of either kind, so that claims are tried with it.
 
     Columns: `method`, `label`, `null` (its name, None of a method), `taa`; by what moves in a
-    sequence `e_camera`, …, and `reference_camera`, …, of the exact shadow; `mse_sequence`, and
-    `mse_edge` of test frames, NaN with TAA.
+    sequence `e_camera`, …, and `reference_camera`, …, of the exact shadow; `mse_sequence`, off
+    the geometry's edges, and `mse_edge` of test frames, NaN with TAA.
     """
     rows = []
     methods = [(method, label, None) for method, label in soft.labels.items()]

@@ -223,7 +223,8 @@ def _describe_flicker(
         f"{', '.join(parts['scene'].unique())} with a moving: {kinds} (the CSV has each), at a "
         f"radius of {radii[int(shown['number'].iloc[0])]:.3g} {unit}. E of the reference: "
         f"{shown['instability_reference'].iloc[0]:.3f}. In sequences the SVGF-, FFX- and "
-        "SIGMA-like filters have their history; all other columns are of single frames."
+        "SIGMA-like filters have their history, and squared errors are off edges (in the CSV); all other "
+        "columns are of single frames."
     ]
 
 

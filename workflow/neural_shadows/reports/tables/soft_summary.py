@@ -262,7 +262,7 @@ def _cells(
             for mover in MOVES[1:]:
                 cells[f"{mover} alone"] = column(f"{metric}_{mover}")
             cells["exact shadow's"] = column(f"{metric}_reference")
-            in_sequence = f"{metrics_by_key()['mse'].label} in sequence"
+            in_sequence = f"{metrics_by_key()['mse'].label} in sequence, off edges"
             cells[in_sequence] = metric_column(table, "mse", "mse_sequence")
     return filled(cells)
 
@@ -296,5 +296,5 @@ def _describe_sequences(errors: pd.DataFrame) -> str:
         "Temporal error: root of the mean squared change of a point from frame to frame, over all "
         f"pixels (eq. 7), in a sequence of {', '.join(scenes)}: light and camera move, or one of them "
         "alone. The exact shadow's is the true change. Blur lowers this error, so the squared error "
-        "stands beside it."
+        "stands beside it, off the geometry's edges."
     )
