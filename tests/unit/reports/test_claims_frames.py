@@ -106,6 +106,14 @@ def test_a_missing_metric_is_named():
     assert outcome["verdict"] == verdicts.TOO_SMALL and "no LPIPS of PCSS, MSM" in outcome["reason"]
 
 
+def test_a_method_that_this_machine_lacks_is_named():
+    """Open Image Denoise has no package for every processor; the other claims are judged."""
+    outcome = judge(claim(("rt_1_oidn", "pcss")), data())
+    assert (
+        outcome["verdict"] == verdicts.TOO_SMALL and "off edges of rt_1_oidn" in outcome["reason"]
+    )
+
+
 def test_scenes_are_what_a_claim_is_about():
     """Many frames of five scenes, two of them contrary."""
     errors = [

@@ -65,6 +65,21 @@ def test_trainings_law_prediction_and_null(table):
     assert "extrapolated, 90 %" not in names
 
 
+def test_more_methods_than_colours_are_drawn(table, tmp_path):
+    labels = [f"method {k}" for k in range(len(COLOURS) + 1)]
+    pd.concat([table[table["method"] == "A"].assign(method=label) for label in labels]).to_csv(
+        tmp_path / "table.csv", index=False
+    )
+    text = written_figure(
+        draw,
+        tmp_path,
+        title="Curves",
+        table_csv=tmp_path / "table.csv",
+        rows=[row(label, label) for label in labels],
+    )
+    assert all(f">{label}<" in text for label in labels)
+
+
 def test_a_scene_of_a_table_is_drawn(table, tmp_path):
     other = table.assign(scene="fence", method="C")
     pd.concat([table, other]).to_csv(tmp_path / "table.csv", index=False)

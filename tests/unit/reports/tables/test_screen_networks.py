@@ -9,6 +9,7 @@ from report_samples import MACHINE, PUBLISHED, write_record, written_figure, wri
 from shipped import shipped
 
 from neural_shadows.networks.screen_space.widths import by_level, convolutions
+from neural_shadows.reports.claims.kinds.ratio import of_another_size
 from neural_shadows.reports.data.published import read_published
 from neural_shadows.reports.figures.screen_level_time import draw
 from neural_shadows.reports.tables import screen_levels, screen_networks, screen_parts
@@ -59,6 +60,8 @@ def test_levels_stand_beside_the_printed_ones(tmp_path):
     assert table["runtime_minus_printed"][0] == pytest.approx(-1.0)
     for name, most in {"compute": 0.005, "parameters": 0.05, "storage_io": 0.1}.items():
         assert table[f"{name}_minus_printed"].abs().max() < most
+    assert "device" in table and of_another_size(table, "runtime", table["device"][0]) == ""
+    assert of_another_size(table, "runtime", "tpu") == "times on tpu are needed"
     # 7.147 GMAC in 10 ms, of 1000 GMAC a second
     assert table["product_share"][0] == pytest.approx(0.7147, rel=1e-3)
     assert "table S2 of Datta et al. 2022" in md.read_text()

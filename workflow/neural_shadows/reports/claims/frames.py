@@ -136,7 +136,7 @@ def comparisons(claim: Claim, data: Measured, null: str = "") -> list[Comparison
     outcomes = []
     for (winner, loser), metric, radius in product(claim["pairs"], claim["metrics"], radii):
         if winner == EQUAL_TIME:
-            limit, label = table.milliseconds(loser, radius), table.labels[loser]
+            limit, label = table.milliseconds(loser, radius), table.labels.get(loser, loser)
             winner = table.rays_within(limit, radius)
             if winner is None:
                 text = f"{label} takes {limit:.1f} ms at {table.light(radius)}"
@@ -205,7 +205,7 @@ def _comparison(
     elif network is not None:
         seeds = min(len(names) for names in runs if is_network(names[0]))
         runs = [names[:seeds] for names in runs]
-    labels = [table.labels[name] for name in pair]
+    labels = [table.labels.get(name, name) for name in pair]  # it may not be available here
     light = table.light(radius)
     methods = f"{' against '.join(labels)} at {light}"
     fields = {"metric": metric, "methods": methods, "seeds": seeds}

@@ -1,6 +1,7 @@
 """Loss and quality over training samples, with power laws."""
 
 from collections.abc import Mapping, Sequence
+from itertools import cycle
 from pathlib import Path
 from typing import Literal
 
@@ -39,7 +40,7 @@ def draw(table_csv: Path, rows: Sequence[Row], heading: str) -> Figure:
     """
     curves = read_table(table_csv, TEXTS, NUMBERS)
     curves = curves[curves["scene"] == rows[0]["scene"]]
-    looks = {row["label"]: (colour, MARKERS[0]) for row, colour in zip(rows, COLOURS)}
+    looks = {row["label"]: (colour, MARKERS[0]) for row, colour in zip(rows, cycle(COLOURS))}
     return curves_figure(curves, looks, title=heading)
 
 

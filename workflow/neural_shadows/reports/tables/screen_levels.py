@@ -60,7 +60,7 @@ def level_table(
 
     Columns `level`, `of_printed_size`, true for frames of the paper's size, `ms_RUN` of each run,
     and of `COLUMNS` ours, `printed_`, `_minus_printed` (of times, multiply-adds and storage in
-    frames of the paper's size alone), `product_share`.
+    frames of the paper's size alone), `product_share`; `device`, whose time `runtime` is.
     """
     levels = pd.DataFrame(profile["levels"])
     times = screen_profiles.part_times(profile).groupby("level").sum()
@@ -70,6 +70,7 @@ def level_table(
     for key in times:
         table[f"ms_{key}"] = times[key].reindex(table["level"]).to_numpy()
     table["runtime"] = table[f"ms_{screen_profiles.run_key(run)}"]
+    table["device"] = run["device"]
     table["compute"] = levels["macs"] * pixels / 1e9
     table["parameters"] = levels["weights"] / 1e3
     table["storage_io"] = levels["storage"] * pixels / 1e6
