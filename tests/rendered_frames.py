@@ -9,7 +9,7 @@ FRAMES = {
     **{"width": 48, "height": 24, "fov": 55, "of": None, "blur": 0.0},
     "light_map": {"kind": "perspective", "fov": 120, "resolution": 64},
     **{"radii": [0, 0.1, 0.25], "radius_unit": "metres"},
-    "twins": {"count": 0, "light": 0.0, "eye": 0.0, "turn_deg": 0.0},
+    "twins": {"count": 0},
 }
 
 

@@ -69,13 +69,6 @@ LAYOUT = Layout(SETTINGS, os.path.relpath(WORKFLOW.parent))
 PATHS = LAYOUT.paths
 COMPUTE = SETTINGS["compute"]
 ENVIRONMENT = "../../envs/environment.yaml"
-TEMPLATE = [
-    LAYOUT.source(f"workflow/report/page/{name}")
-    for name in (
-        *("template.html", "style.css", "reading.js"),
-        *("hard_frames.js", "soft_frames.js", "frames.js"),
-    )
-]
 
 
 def files_of(folder, pattern="**/*.*"):

@@ -17,7 +17,6 @@ rule render_frames:
         PATHS.benchmark("render_frames", "scene", "frame_set", "part")
     conda:
         ENVIRONMENT
-    # There are many parts: one after the other on two threads, they used three quarters of two cores.
     threads: 1
     resources:
         **usual(4000, minutes=120),

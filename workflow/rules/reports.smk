@@ -156,7 +156,7 @@ rule expected_minutes:
 rule page:
     input:
         unpack(of(targets.page_inputs)),
-        template=TEMPLATE,
+        template=files_of("report/page"),
     output:
         html=report(
             PATHS.report("{page}.html"),

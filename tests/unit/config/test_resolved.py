@@ -88,6 +88,13 @@ def test_what_a_scale_compares_with_the_thesis_s_network_has_its_samples_and_ray
     assert len(compared) > 10 and sizes == {expected[scale]}
     smallest = [settings["samplings"][f"min_quad_{size}"]["min_quad"] for size in (2, 4, 8)]
     assert smallest == [2, 4, 8]
+    # A list is replaced as a whole: the copy has all rows of the desk's but the one of other batches.
+    kept, desk = (
+        [row["method"] for row in one["tables"]["beyond"]["rows"] if row["scene"] == "dragon"]
+        for one in (settings, resolved(read_config(shipped())))
+    )
+    desk.remove("dragon_muon_4096_biased")
+    assert kept == desk
 
 
 def test_rows_of_tables(settings, changed):

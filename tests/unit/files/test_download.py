@@ -8,7 +8,7 @@ import pytest
 from served import served
 
 from neural_shadows.errors import InputError
-from neural_shadows.files.download import downloaded
+from neural_shadows.files.download import PART, downloaded
 
 CONTENT = b"weights"
 SHA256 = hashlib.sha256(CONTENT).hexdigest()
@@ -22,7 +22,10 @@ SHA256 = hashlib.sha256(CONTENT).hexdigest()
     ],
 )
 def test_a_full_disk_is_no_failed_download(tmp_path, code, kind, words):
+    """Nor does anything stay, not even of a job that Ctrl-C has ended before."""
     (tmp_path / "file").write_bytes(CONTENT)
+    (tmp_path / "new" / PART).mkdir(parents=True)
+    (tmp_path / "new" / PART / "half").write_bytes(CONTENT[:3])
     with (
         served(tmp_path) as address,
         pytest.raises(kind, match=words),

@@ -12,14 +12,13 @@ from neural_shadows.frames import render_frames as render_frames_stage
 from neural_shadows.frames.buffers import CHANNELS
 from neural_shadows.frames.frame_set import FrameSetPart, check_values
 
-TWINS = {"count": 3, "light": 0.007, "eye": 0.001, "turn_deg": 0.0}
-FRAMES = {"width": 32, "height": 16, "blur": 0.7, "twins": TWINS}
+TWINS = {"light": 0.007, "eye": 0.001, "turn_deg": 0.0}
+FRAMES = {"width": 32, "height": 16, "blur": 0.7}
 
 
 def render(folder, use="train", first=0, twins=2):
-    return FrameSetPart(
-        render_part(folder, use, FRAMES, first=first, last=2, samples=2, twins=twins)
-    )
+    frames = FRAMES | {"twins": TWINS | {"count": twins}}
+    return FrameSetPart(render_part(folder, use, frames, first=first, last=2, samples=2))
 
 
 @pytest.fixture(scope="module")

@@ -187,6 +187,23 @@ def test_unseen_scenes_may_have_more_test_frames():
     assert last == 20
 
 
+def test_other_twins_render_training_frames_alone_anew(desk):
+    other = layout_of(frame_sets={"nsm": {"twins": {"count": 7}}})
+    parts = ("train_000", "validation_000", "test_000", "camera_000")
+    settings = [
+        [frame_sets.frame_settings(layout, "room", "nsm", part) for part in parts]
+        for layout in (desk, other)
+    ]
+    assert [a == b for a, b in zip(*settings)] == [False, True, True, True]
+
+
+def test_times_are_of_a_scene_that_is_trained_on_and_of_one_unseen(desk):
+    """More rays cost more where more stands in their way."""
+    (seen, unseen) = evaluations.timed_files(desk, "shipped_methods", "all")["frames"]
+    scenes = [path.split("/")[-2] for path in (seen, unseen)]
+    assert [scene in desk.frames("windows")["unseen"] for scene in scenes] == [False, True]
+
+
 def test_steps_are_measured_in_their_number_formats(desk):
     made = kinds.table_files(desk, "nsm_steps")
     measured = [*made["soft_metrics"], *made["null_metrics"]]

@@ -3,11 +3,13 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from shutil import rmtree
 from typing import Any
 
 from neural_shadows.errors import InputError
 from neural_shadows.files.whole_files import is_full_disk
+
+PART = ".download.part"  # one name: Ctrl-C ends a job at once, and a folder of any name would stay
 
 
 @contextmanager
@@ -16,10 +18,10 @@ def downloaded(
 ) -> Iterator[list[Path]]:
     """Yield a downloaded file, or those unpacked from it; they go after the block.
 
-    An interrupted download starts again with the next attempt.
+    An interrupted download starts again with the next attempt, which removes what it left.
 
     Args:
-        folder: for a temporary folder within it, so that a file can be moved.
+        folder: for a temporary folder `PART` within it, so that a file can be moved.
         cure: what to do without the download, for the message.
         processor, progress: of `pooch.retrieve`.
 
@@ -29,20 +31,23 @@ def downloaded(
     """
     import pooch
 
-    folder.mkdir(parents=True, exist_ok=True)
+    part = folder / PART
+    rmtree(part, ignore_errors=True)
+    part.mkdir(parents=True)
     try:
-        with TemporaryDirectory(dir=folder) as temporary:
-            files = pooch.retrieve(
-                url,
-                known_hash=f"sha256:{sha256}",
-                path=temporary,
-                fname=Path(url).name,
-                processor=processor,
-                progressbar=progress,
-            )
-            yield [Path(file) for file in ([files] if isinstance(files, str) else files)]
+        files = pooch.retrieve(
+            url,
+            known_hash=f"sha256:{sha256}",
+            path=part,
+            fname=Path(url).name,
+            processor=processor,
+            progressbar=progress,
+        )
+        yield [Path(file) for file in ([files] if isinstance(files, str) else files)]
     except (OSError, ValueError) as error:  # from requests, or a wrong digest
         if is_full_disk(error):
             raise
         reason = " ".join(str(error).split())[:300]
         raise InputError(f"cannot download {url}: {reason}. {cure}") from error
+    finally:
+        rmtree(part, ignore_errors=True)

@@ -1,7 +1,6 @@
 """Rendering of a frame: buffers, and soft shadows of all radii."""
 
 from collections.abc import Sequence
-from concurrent.futures import Executor
 
 import numpy as np
 from scipy.ndimage import binary_dilation, gaussian_filter
@@ -45,7 +44,6 @@ def render_target(
     radii: Sequence[float],
     samples: int,
     blur: float,
-    pool: Executor | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Render the exact soft shadow for each radius.
 
@@ -58,7 +56,7 @@ def render_target(
             light's (Datta et al. 2022, 3.1); 0 for none.
     """
     opened, seen = scene.moved(setting.motion), (setting.camera, kind.width, kind.height)
-    middle, *surfaces = see_places(opened, *seen, places=(CENTRE, *PLACES), pool=pool)
+    middle, *surfaces = see_places(opened, *seen, places=(CENTRE, *PLACES))
     target = soft_visibility(
         opened,
         *seen,
@@ -66,7 +64,6 @@ def render_target(
         radii=radii,
         samples=samples,
         shape=kind.shape,
-        pool=pool,
         surfaces=surfaces,
     )
     edges = geometry_edges([middle, *surfaces])

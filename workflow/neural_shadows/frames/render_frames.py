@@ -1,7 +1,6 @@
 """Stage: draw and render one scene's frames of one use."""
 
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 from zlib import crc32
@@ -45,9 +44,7 @@ def render_frames(
     first: int,
     last: int,
     samples: int,
-    twins: int = 0,
     rays: int = 0,
-    threads: int = 1,
 ) -> None:
     """Render frames `first` to `last` (exclusive) of a scene, see `FrameSetPart`.
 
@@ -61,7 +58,6 @@ def render_frames(
         frames: of the set, see `FrameSettings`.
         use: one of `USES`.
         samples: see `soft_visibility`.
-        twins: perturbed frames of each frame.
         rays: of a pixel, for networks that filter them; 0 for none.
 
     Raises:
@@ -75,6 +71,7 @@ def render_frames(
     shared = {key: frames[key] for key in ("width", "height", "fov", "of", "light_map")}
     kind = FrameKind(**shared, radius=max(radii), shape=shape)
     settings = draw(opened, kind, use, first, last, streams)
+    twins = frames["twins"]["count"]
     perturbed = [
         [twin_of(opened, kind, setting, frames["twins"], rng) for _ in range(twins)]
         for number, setting in enumerate(settings, first)
@@ -88,16 +85,13 @@ def render_frames(
         new_array(valid_npy, (count, versions, *image), np.bool_) as valid,
         new_array(edges_npy, (count, *image), np.bool_) as edges,
         new_array(rays_npy, (count, len(radii), 2 * (rays > 0), *image), np.float16) as traced,
-        ThreadPoolExecutor(threads) as pool,
         progress_bar(count, "frames", title) as bar,
     ):
         for number, setting in enumerate(settings):
-            rendered = pool.map(
-                lambda version, aimed_from=setting.centre: render_buffers(
-                    opened, kind, version, aimed_from
-                ),
-                [setting, *perturbed[number]],
-            )
+            rendered = [
+                render_buffers(opened, kind, version, setting.centre)
+                for version in (setting, *perturbed[number])
+            ]
             buffers[number], valid[number] = map(np.stack, zip(*rendered))
             targets[number], edges[number] = render_target(
                 opened,
@@ -106,7 +100,6 @@ def render_frames(
                 radii=radii,
                 samples=samples,
                 blur=frames["blur"],
-                pool=pool,
             )
             if rays:
                 traced[number] = render_rays(opened, kind, setting, radii=radii, rays=rays)

@@ -25,7 +25,10 @@ def frame_settings(layout: Layout, scene: str, frame_set: str, part: str) -> dic
     total, shard = _counts(layout, settings, scene, use)
     first, is_training = int(number) * shard, use == "train"
     frames = {key: settings[key] for key in FRAME_KEYS}
-    frames["width"] = (settings["train_width"] if is_training else None) or settings["width"]
+    if is_training:
+        frames["width"] = settings["train_width"] or settings["width"]
+    else:
+        frames["twins"] = {"count": 0}  # so that other ones render no test anew
     return {
         "scene": _arrangement(layout, scene, use, int(number)),
         "name": scene,
@@ -38,7 +41,6 @@ def frame_settings(layout: Layout, scene: str, frame_set: str, part: str) -> dic
         "samples": settings["samples"][
             "train" if use in ("train", "validation", TUNED_SEQUENCE) else "measured"
         ],
-        "twins": settings["twins"]["count"] * is_training,
         # A method of rays traces its own in tests.
         "rays": settings["rays"] * (use in ("train", "validation")),
     }

@@ -6,7 +6,6 @@ rays find them, if their neighbourhood agrees.
 """
 
 from collections.abc import Callable, Sequence
-from concurrent.futures import Executor
 
 import numpy as np
 from numba import njit
@@ -39,7 +38,6 @@ def soft_visibility(
     samples: int,
     shape: LightShape = SPHERE,
     adaptive: bool = True,
-    pool: Executor | None = None,
     surfaces: Sequence[Surface] | None = None,
 ) -> np.ndarray:
     """Trace visibility for each radius: (radii, height, width) float32.
@@ -51,12 +49,10 @@ def soft_visibility(
         samples: rays for every place in a pixel and every ring between two radii.
         adaptive: leave a ring at few rays where these and its neighbours' agree: less than 5e-4 off
             on average.
-        pool: whose threads share the places; Embree and the kernels need no interpreter.
         surfaces: the camera's surfaces at the places, by default at `PLACES`.
     """
     rings = np.array([radius for radius in radii if radius > 0], np.float64)
-    run = pool.map if pool else map
-    surfaces = surfaces or see_places(scene, camera, width, height, pool=pool)
+    surfaces = surfaces or see_places(scene, camera, width, height)
     light = shape, centre, rings
     places = [_Place(scene, surface, index, *light) for index, surface in enumerate(surfaces)]
     hard, mixed = (
@@ -64,11 +60,11 @@ def soft_visibility(
         np.ones((len(rings) + 1, height, width), bool),
     )
     if adaptive:
-        hard, mixed = _pilot(places, run)
+        hard, mixed = _pilot(places)
 
     def averaged(pixels: np.ndarray, visibility: Callable[["_Place"], np.ndarray]) -> np.ndarray:
         """Mean of the places at some pixels (height, width) bool."""
-        return sum(image[pixels] for image in run(visibility, places)) / len(places)
+        return sum(image[pixels] for image in map(visibility, places)) / len(places)
 
     # All places once any ring is mixed: shadows' edges are smooth even of a point.
     some = mixed.any(axis=0)
@@ -85,7 +81,7 @@ def soft_visibility(
     return visibility
 
 
-def _pilot(places: "Sequence[_Place]", run: Callable) -> tuple[np.ndarray, np.ndarray]:
+def _pilot(places: "Sequence[_Place]") -> tuple[np.ndarray, np.ndarray]:
     """Few rays from every second place in each pixel.
 
     Returns:
@@ -93,7 +89,7 @@ def _pilot(places: "Sequence[_Place]", run: Callable) -> tuple[np.ndarray, np.nd
         sampled, (1 + rings, height, width) bool, for the centre and for each ring: of lights up to
         that ring not all rays of a neighbourhood agree.
     """
-    seen = [*run(_Place.pilot, places[::2])]
+    seen = [*map(_Place.pilot, places[::2])]
     mixed = []
     for low, high in zip(*(zip(*levels) for levels in zip(*seen))):
         least, most = np.min(low, axis=0), np.max(high, axis=0)
@@ -107,11 +103,9 @@ def see_places(
     width: int,
     height: int,
     places: Sequence[tuple[float, float]] = PLACES,
-    pool: Executor | None = None,
 ) -> list[Surface]:
     """Trace a camera's surfaces at places in pixels, in pixel sides."""
-    run = pool.map if pool else map
-    return [*run(lambda place: see_surface(scene, camera, width, height, place), places)]
+    return [see_surface(scene, camera, width, height, place) for place in places]
 
 
 class _Place:

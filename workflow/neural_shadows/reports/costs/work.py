@@ -188,7 +188,7 @@ def render_frames(layout: Layout, scene: str, frame_set: str, part: str) -> Work
     frames = settings["last"] - settings["first"]
     pixels = frames * _size(layout, frame_set, settings["use"])
     targets = pixels * _lights(layout, frame_set)
-    seconds = 2.4 * pixels * (1 + settings["twins"])
+    seconds = 2.4 * pixels * (1 + settings["frames"]["twins"]["count"])
     # Eight places of a pixel, in penumbrae with `samples`² rays each.
     return Work(START, seconds, rays=0.33 * targets * settings["samples"] ** 2)
 
