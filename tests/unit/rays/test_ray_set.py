@@ -101,7 +101,7 @@ def test_threads_and_shards_change_no_byte_and_seeds_do(make_set, sampler):
     assert contents[0][0] != contents[2][0]
 
 
-def test_the_description_counts_rays_by_their_hits(mesh_ply, ray_set, tmp_path):
+def test_the_description_names_what_a_set_is_made_of(mesh_ply, ray_set, tmp_path):
     describe_rays(
         mesh_ply=mesh_ply,
         directions_npy=ray_set / "directions.npy",
@@ -112,12 +112,6 @@ def test_the_description_counts_rays_by_their_hits(mesh_ply, ray_set, tmp_path):
         seed=SEED,
     )
     content = json.loads((tmp_path / "rays.json").read_text())
-    origins, directions, t_lb, t_ub = everything(ray_set)
-    chord = -2 * np.sum(origins.astype(float) * directions, axis=1)
-    missed = np.isinf(t_ub) & (np.abs(t_lb - chord) < 1e-6)
-    assert 0.1 < content["misses"] == pytest.approx(missed.mean(), abs=1e-12)
-    once = np.isinf(t_ub) & ~missed
-    assert 0.001 < content["one_hit"] == pytest.approx(once.mean(), abs=1e-12)
     assert content["mesh_sha256"] == sha256_of(mesh_ply)
     assert len(content["sha256"]) == 5
     for file, digest in content["sha256"].items():

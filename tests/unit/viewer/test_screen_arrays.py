@@ -12,7 +12,7 @@ from neural_shadows.errors import InputError
 from neural_shadows.networks.screen_space.pixel_kernels import filtered
 from neural_shadows.viewer.screen_arrays import screen_arrays, with_half_weights
 
-HEADER = {"radii": [0.0, 0.25], "radius_unit": "scene_sizes", "rays": 2}
+HEADER = {"rays": 2}
 KERNELS = {
     "form": "kernels",
     "widths": [6, 8, 12],
@@ -105,17 +105,13 @@ def test_plan_gives_the_networks_visibility(name):
         assert torch.allclose(evaluated(data, planes), expected, atol=1e-5)
 
 
-def test_planes_and_light_are_those_of_the_training():
+def test_planes_are_those_of_the_training():
     settings = KERNELS | {"edge": 0.25}
-    light = {"shape": "disc"}
-    header = HEADER | {"network": settings, "light": light}
+    header = HEADER | {"network": settings}
     data = screen_arrays(make_screen_network(settings), header)
     assert data["features"] == ["n", "log_d", "base_rays"]
     assert (data["planes"], data["guide"], data["base"], data["edge"]) == (5, 3, 4, 0.25)
     assert data["rays"] == 2
-    assert data["light"] == {
-        **{"shape": light, "largest_radius": 0.25, "radius_unit": "scene_sizes"},
-    }
 
 
 @pytest.mark.parametrize(

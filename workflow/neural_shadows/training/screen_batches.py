@@ -157,14 +157,16 @@ class ScreenFrames:
         Over valid pixels of up to 16 frames, for all radii together; deviation 1 of a constant
         channel.
         """
-        pixels = [
-            self.features(frame, radius)[:, self.valid(frame)]
-            for frame in range(0, len(self), -(-len(self) // 16))
-            for radius in range(self.radii)
-        ]
-        pixels = np.concatenate(pixels, axis=1)
-        deviations = pixels.std(axis=1)
-        return pixels.mean(axis=1), np.where(deviations > 1e-6, deviations, 1).astype(np.float32)
+        count, sums = 0, np.zeros((2, len(self._features)))
+        # A frame at a time: of 2048 × 1024 all together are 10 GB.
+        for frame in range(0, len(self), -(-len(self) // 16)):
+            for radius in range(self.radii):
+                pixels = np.float64(self.features(frame, radius)[:, self.valid(frame)])
+                count += pixels.shape[1]
+                sums += pixels.sum(axis=1), np.square(pixels).sum(axis=1)
+        means, squares = sums / count
+        deviations = np.sqrt(np.maximum(squares - means**2, 0))
+        return np.float32(means), np.float32(np.where(deviations > 1e-6, deviations, 1))
 
     def target(self, frame: int, radius: int) -> np.ndarray:
         """The exact soft shadow, (H, W) float32."""

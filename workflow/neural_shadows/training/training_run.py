@@ -38,7 +38,8 @@ class TrainingRun(TrainingState):
         """Do one step on the batch's mean loss.
 
         Gradients of chunks are computed side by side and added in the chunks' order, so
-        that the result is independent of the number of threads. Nothing is read back from a GPU.
+        that the result is independent of the number of threads. Nothing is read back from a
+        GPU, except the number of the step for a network that draws random numbers.
         Random numbers of a network's loss are determined by the seed, the step and the chunk's
         number.
         """

@@ -36,7 +36,7 @@ def screen_arrays(network: ScreenNetwork, header: Mapping[str, Any]) -> dict[str
 
     Returns:
         `plan`: steps with `kind`, `level` and settings of the shaders; each reads the one before it, and
-        `skip`, `logits` and `guides` are numbers of earlier steps. `features`, `rays` and `light` are what
+        `skip`, `logits` and `guides` are numbers of earlier steps. `features` and `rays` are what
         the `planes` are made from; `centres` and `spreads` normalise them. `base` and `guide`: planes that
         kernels filter and are kept by.
 
@@ -51,11 +51,6 @@ def screen_arrays(network: ScreenNetwork, header: Mapping[str, Any]) -> dict[str
         "features": list(rounded.features),
         "planes": planes,
         "rays": header.get("rays", 0),
-        "light": {
-            "shape": header.get("light"),
-            "largest_radius": max(header["radii"]),
-            "radius_unit": header["radius_unit"],
-        },
     }
     if isinstance(rounded, ShadowUnet):
         data |= {"centres": rounded.centres.tolist(), "spreads": rounded.spreads.tolist()}

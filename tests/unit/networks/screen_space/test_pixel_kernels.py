@@ -56,10 +56,11 @@ def test_rows_of_large_logits_among_others(dtype):
     assert torch.allclose(ours.double(), theirs, rtol=0, atol=2e-5)  # of 90: steps of 7.6e-6
 
 
+@pytest.mark.parametrize("work", [filtered, by_shifts])
 @pytest.mark.parametrize("factor", [1, 2])
-def test_bfloat16_is_read_to_its_last_digit(factor):
+def test_bfloat16_is_read_to_its_last_digit(work, factor):
     inputs_of = drawn((18, 130), factor, dtype=torch.bfloat16)
-    value, of_logits, of_base = values_and_gradients(filtered, *inputs_of, factor, None)
+    value, of_logits, of_base = values_and_gradients(work, *inputs_of, factor, None)
     theirs = values_and_gradients(by_unfold, *inputs_of, factor, torch.float64)
     assert value.dtype == of_base.dtype == torch.float32 and of_logits.dtype == torch.bfloat16
     assert torch.allclose(value.double(), theirs[0], rtol=0, atol=3e-6)

@@ -4,9 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import torch
+from numba import njit
 from torch import Tensor
-
-from neural_shadows.representations.distance_bricks.sphere_entry import enter_sphere
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,5 +50,35 @@ def _in_one_pass(p: Tensor, light: Tensor) -> SphereRays:
     index = np.empty(len(p), np.int64)
     origins = np.empty((len(p), 3), np.float32)
     s, chord = np.empty((2, len(p)), np.float32)
-    count = enter_sphere(p.numpy(), light.numpy(), index, origins, s, chord)
+    count = _enter_sphere(p.numpy(), light.numpy(), index, origins, s, chord)
     return SphereRays(*(torch.from_numpy(part[:count]) for part in (index, origins, s, chord)))
+
+
+@njit(cache=True, nogil=True)
+def _enter_sphere(p, light, index, origins, s, chord):
+    """Fill in the rays from a light to points p, without culled ones; return their number.
+
+    Args:
+        p: (m, 3) float32. light: (3,) float32, unit vector towards the light.
+        index: (m,) int64, of each ray's point. origins: (m, 3) float32, entry points on the sphere.
+        s, chord: (m,) float32, distances from there to the point, and to the sphere's other side.
+    """
+    u, v, w = light
+    one, count = np.float32(1), 0
+    for point in range(len(p)):
+        x, y, z = p[point]
+        along = x * u + y * v + z * w
+        x, y, z = x - along * u, y - along * v, z - along * w
+        half_chord_squared = one - (x * x + y * y + z * z)
+        if half_chord_squared <= 0:
+            continue
+        half_chord = np.sqrt(half_chord_squared)
+        if half_chord <= along:
+            continue
+        index[count] = point
+        origins[count, 0] = x + half_chord * u
+        origins[count, 1] = y + half_chord * v
+        origins[count, 2] = z + half_chord * w
+        s[count], chord[count] = half_chord - along, 2 * half_chord
+        count += 1
+    return count

@@ -137,11 +137,15 @@ def by_shifts(
     limit: float = math.inf,
 ) -> Tensor:
     """`filtered` by torch operations, for a GPU: no copies by tap."""
-    if factor > 1:
-        logits = functional.interpolate(logits, scale_factor=factor, mode="bilinear")
     height, width = base.shape[-2:]
     picture = base
-    for level, level_logits in enumerate(logits[..., :height, :width].split(TAPS, dim=1)):
+    for level, level_logits in enumerate(logits.split(TAPS, dim=1)):
+        # Before they are enlarged: of 16 in bfloat16 each rounding is up to 6 % of a weight.
+        level_logits = level_logits.to(base.dtype)
+        if factor > 1:
+            level_logits = functional.interpolate(
+                level_logits, scale_factor=factor, mode="bilinear"
+            )
         step, border = 2**level, SIDE // 2 * 2**level
         offsets = [(row * step, column * step) for row in range(SIDE) for column in range(SIDE)]
 
@@ -152,7 +156,7 @@ def by_shifts(
         if limit < math.inf:
             others = torch.cat(shifted(functional.pad(guide, [border] * 4)), dim=1)
             inside = inside & ((others - guide).abs() <= limit)
-        weights = level_logits.to(base.dtype).masked_fill(~inside, -torch.inf)
+        weights = level_logits[..., :height, :width].masked_fill(~inside, -torch.inf)
         values = shifted(functional.pad(picture, [border] * 4))
         parts = zip(weights.softmax(dim=1).split(1, dim=1), values)
         picture = sum(weight * value for weight, value in parts)

@@ -20,7 +20,7 @@ class Convolution:
     """A convolution at level k, on (H / 2^k) × (W / 2^k) pixels."""
 
     level: int
-    part: str  # `extraction`, `encoder`, `upsample` or `decoder`
+    part: str  # `extraction`, `encoder`, `upsample`, `decoder` or `head`
     size: int  # of its kernel
     inputs: int
     outputs: int

@@ -8,7 +8,7 @@ from neural_shadows.frames.feature_names import FEATURES
 from neural_shadows.settings.base import Model, not_among
 
 BEHIND = "behind"
-# What the viewer's shaders evaluate (workflow/report/viewer/shaders); first the default.
+# What the viewer's shaders evaluate (workflow/report/soft_viewer/shaders); first the default.
 SHADED = {
     "form": ("kernels", "shuffle", "half", "full", "direct"),
     "ends": ("half",),
