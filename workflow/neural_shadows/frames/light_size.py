@@ -1,6 +1,5 @@
 """Size of a light as input of networks."""
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
 LARGEST_STEP = 4  # NSM's index of the largest light: 50 cm across
@@ -27,9 +26,3 @@ def light_size(radius: float, largest: float, scene_size: float, away: float = 0
     the room, and 11 % more after 1,000: less than three seeds differ.
     """
     return LightSize(LARGEST_STEP * radius / (largest or 1), radius / scene_size, away)
-
-
-def shown_radii(radii: Sequence[float]) -> list[int]:
-    """Numbers of the radii that pictures show: the least but a point, the middle, the largest."""
-    last = len(radii) - 1
-    return sorted({min(int(radii[0] == 0), last), len(radii) // 2, last})

@@ -18,10 +18,9 @@ from neural_shadows.frames.buffers import LIT
 from neural_shadows.frames.feature_names import buffers_of
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.frames.kernel_features import PENUMBRA_PIXELS, blocker, penumbra_pixels
-from neural_shadows.frames.light_size import shown_radii
 from neural_shadows.metrics.registry import image_metrics
 from neural_shadows.reports.data.frame_errors import Window
-from neural_shadows.reports.data.lights import light_names
+from neural_shadows.reports.data.lights import light_names, radii_of, shown_radii
 from neural_shadows.reports.data.soft_pictures import pictures_of
 from neural_shadows.reports.drawing.soft_sheet import whole_sheet
 from neural_shadows.running.progress import progress_bar, warn
@@ -119,12 +118,11 @@ def _name(measured: MeasuredFrame) -> str:
 
 def _rows(measured: MeasuredFrame, visibility: np.ndarray) -> list[dict[str, Any]]:
     about = measured.part.about
-    radii = about.get("given_radii", about["radii"])
     key = {"scene": measured.scene_name, "frame": _name(measured)}
     key |= {"frame_width": about["width"], "frame_height": about["height"]}
     key |= {"pixels": measured.valid.sum()}
     rows, images = [], image_metrics("soft", slow=False)
-    for k, radius in enumerate(radii):
+    for k, radius in enumerate(radii_of(about)):
         row = {**key, "radius": radius, "radius_unit": about.get("radius_unit", "metres")}
         if measured.part.has_targets:
             row |= image_errors(measured, visibility[k], k, images)

@@ -1,4 +1,6 @@
-"""Names of the lights of soft shadows, by their radii."""
+"""The lights of soft shadows in reports: their names by their radii, and which of them are shown."""
+
+from collections.abc import Sequence
 
 from neural_shadows.rendering.light_shape import UNITS
 from neural_shadows.settings.records import PartRecord
@@ -33,3 +35,9 @@ def light_name(radius: float, unit: str) -> str:
     if unit == UNITS["degrees"]:
         return f"sun of {radius:.3g}° radius" if radius else "sun of no extent"
     return f"light of {radius:.3g} {unit} radius" if radius else "point light"
+
+
+def shown_radii(radii: Sequence[float]) -> list[int]:
+    """Numbers of the radii that pictures show: the least but a point, the middle, the largest."""
+    last = len(radii) - 1
+    return sorted({min(int(radii[0] == 0), last), len(radii) // 2, last})

@@ -7,10 +7,10 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from neural_shadows.frames.light_size import shown_radii
 from neural_shadows.layout import frame_sets, kinds
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.tables import frame_set, unique
+from neural_shadows.reports.data.lights import shown_radii
 from neural_shadows.reports.drawing.style import Figure
 from neural_shadows.reports.tables import soft_methods, soft_summary
 from neural_shadows.sections.frame_sets import measured_scenes

@@ -11,7 +11,7 @@ from pydantic import Field
 from neural_shadows.reports.data.digits import short
 from neural_shadows.reports.data.frame_means import squared_errors
 from neural_shadows.reports.data.published import printed_column, read_published, with_printed
-from neural_shadows.reports.data.soft_frames import ABOUT_NULLS, TrainedFrames, learned_rows
+from neural_shadows.reports.data.soft_frames import TrainedFrames, learned_rows
 from neural_shadows.reports.data.table import Table, filled, number_cells, numbers
 from neural_shadows.sections.frame_tables import ColumnsTable
 from neural_shadows.settings.records import TrainingRecord
@@ -68,9 +68,8 @@ def table(
         "row; a network with a receptive field (3 · 2^levels pixels) narrower than the "
         f"penumbra should have {SUFFICES:g} or more. Of the widest: of the tenth of each frame's penumbra "
         "pixels with the widest penumbrae by the paper's model (3.6).",
-        ABOUT_NULLS,
         _describe_learning(soft.records, labels),
-        *soft.notes()[1:],
+        *soft.notes(),
     ]
     return Table(whole, filled(parts), notes)
 
@@ -87,7 +86,7 @@ def depth_table(soft: TrainedFrames, columns: Mapping[str, str]) -> pd.DataFrame
     largest = soft.errors["radius"] == len(soft.about["radii"]) - 1
     for scene, frames in soft.errors[largest].groupby("scene", sort=False):
         for column, experiment in [*columns.items(), *zip(nulls, nulls)]:
-            null = experiment if experiment in nulls else None
+            null = soft.null_of(experiment)
             own = frames[frames["method"] == experiment]
             levels = 0 if null else len(soft.records[experiment]["network"].get("widths", ()))
             row = {"row": scene.replace("plate_", "penumbra_"), "column": column, "null": null}

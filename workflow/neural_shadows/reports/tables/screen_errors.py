@@ -63,8 +63,8 @@ def errors_table(soft: TrainedFrames) -> pd.DataFrame:
     """
     rows, errors, radii = [], soft.errors, soft.radii
     first = next(iter(soft.records.values()))
-    for experiment, label in [*soft.labels.items(), *soft.nulls.items()]:
-        null = experiment if experiment in soft.nulls else None
+    for experiment, label in soft.labels_and_nulls.items():
+        null = soft.null_of(experiment)
         own, record = (
             errors[errors["method"] == experiment],
             first if null else soft.records[experiment],

@@ -1,8 +1,8 @@
-"""Sizes of lights, and which of them pictures show."""
+"""Which lights pictures show."""
 
 import pytest
 
-from neural_shadows.frames.light_size import shown_radii
+from neural_shadows.reports.data.lights import shown_radii
 
 
 @pytest.mark.parametrize(
