@@ -155,7 +155,7 @@ rule expected_minutes:
 # inputs, so that none is made for it.
 rule page:
     input:
-        unpack(of(targets.page_inputs)),
+        unpack(of(pages.page_inputs)),
         template=files_of("report/page"),
     output:
         html=report(
@@ -173,9 +173,9 @@ rule page:
     resources:
         **usual(4000, minutes=10),
     params:
-        code=code("reports/page/page", targets.method_modules(LAYOUT)),
-        settings=of(targets.page_settings),
-        beside=of(targets.newest),
+        code=code("reports/page/page", pages.method_modules(LAYOUT)),
+        settings=of(pages.page_settings),
+        beside=of(pages.newest),
     message:
         "Writing the page {wildcards.page}"
     script:

@@ -13,8 +13,9 @@ from neural_shadows.layout import evaluations, frame_methods, frame_sets, kinds,
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import HELD_OUT, batches, part_range, view_range
 from neural_shadows.layout.paths import ALL
+from neural_shadows.reports import targets
 from neural_shadows.reports.claims import inputs as claims
-from neural_shadows.reports.page import targets
+from neural_shadows.reports.page import inputs as pages
 from neural_shadows.reports.runs import inputs as runs
 from neural_shadows.sections.frame_sets import VIEWS
 from neural_shadows.sections.views import Views
@@ -361,12 +362,12 @@ def test_what_is_made_by_default(desk):
     reports = targets.all_reports(desk)
     assert {"reports/table_4_3.csv", "reports/index.html", "reports/claims.md"} <= {*reports}
     assert not any("ablations" in path or "figure_3d" in path for path in reports)
-    names = [(row["scene"], row["method"]) for row in targets.pictured(desk)]
+    names = [(row["scene"], row["method"]) for row in pages.pictured(desk)]
     assert len(names) == len(set(names)) and ("dragon", "ray_traced") not in names
 
 
 def test_a_page_is_told_its_questions_and_every_method_s_kind(desk):
-    told = targets.page_arguments(desk)
+    told = pages.page_arguments(desk)
     assert len(told["questions"]) == 5
     bytes_stored = {"claim": "coded_mesh_better_than_field", "figure": "figure_stored"}
     assert any(bytes_stored.items() <= one.items() for one in told["questions"])
@@ -377,7 +378,7 @@ def test_a_page_is_told_its_questions_and_every_method_s_kind(desk):
 
 
 def test_a_figure_has_its_table_s_chapter(desk):
-    of = targets.chapters(desk)
+    of = pages.chapters(desk)
     expected = {
         **{"figure_4_4": "thesis", "figure_3_1": "thesis", "figure_stored": "extensions"},
         **{"soft_methods": "soft", "figure_soft_pictures": "soft", "kpnsm_table_1": "networks"},
@@ -387,7 +388,7 @@ def test_a_figure_has_its_table_s_chapter(desk):
 
 
 def test_a_page_is_made_of_the_frames_of_soft_shadows_that_figures_show(desk):
-    made, told = targets.page_files(desk), targets.page_arguments(desk)["soft_pictures"]
+    made, told = pages.page_files(desk), pages.page_arguments(desk)["soft_pictures"]
     assert "results/frames/nsm/room_dragon/test_000.json" in made["soft_parts"]
     assert "results/evaluations/nsm/all/nsm.npz" in made["soft_answers"]
     assert len(made["soft_answers"]) == len(set(made["soft_answers"]))
@@ -399,11 +400,11 @@ def test_a_page_is_made_of_the_frames_of_soft_shadows_that_figures_show(desk):
 
 def test_a_page_of_what_is_there(desk, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
-    assert targets.newest(desk, "available") == 0
+    assert pages.newest(desk, "available") == 0
     made = tmp_path / "reports" / "table_4_1.json"
     made.parent.mkdir()
     made.touch()
-    told = targets.page_settings(desk, "available")
+    told = pages.page_settings(desk, "available")
     assert told["tables"] == ["reports/table_4_1.json"]
     assert told["viewers"] == [] and {"viewer", "figure_front"} <= {*told["missing"]}
     assert "table_4_1" not in told["missing"]
@@ -411,10 +412,10 @@ def test_a_page_of_what_is_there(desk, monkeypatch, tmp_path):
     # The second viewer is shown where the first is not there.
     second = f"reports/{[*desk.settings['viewers']][1]}.html"
     (tmp_path / second).touch()
-    assert targets.page_settings(desk, "available")["viewers"] == [second]
+    assert pages.page_settings(desk, "available")["viewers"] == [second]
     (tmp_path / second).unlink()
     assert told["figures"] == told["claims_json"] == told["lpips_json"] == []
-    assert targets.newest(desk, "available") == made.stat().st_mtime
+    assert pages.newest(desk, "available") == made.stat().st_mtime
 
 
 def test_a_manifest_lists_default_reports_and_those_on_request_that_are_there(

@@ -5,8 +5,8 @@ from dataclasses import asdict
 from typing import Any, TypedDict
 
 from neural_shadows.layout.layout import Layout
+from neural_shadows.reports import targets
 from neural_shadows.reports.costs.work import work_of
-from neural_shadows.reports.page import targets
 
 EVERYTHING = "everything"
 

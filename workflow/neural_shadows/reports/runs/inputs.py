@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from neural_shadows.layout.layout import Layout
-from neural_shadows.reports.page import targets
+from neural_shadows.reports import targets
 
 
 def files(layout: Layout) -> dict[str, Any]:
