@@ -40,11 +40,11 @@ from neural_shadows.layout import evaluations, frame_methods, frame_sets, kinds,
 from neural_shadows.layout import previews, sun_hours, tables, trainings, viewers
 from neural_shadows.layout.layout import Layout
 from neural_shadows.networks.kind_module import form_module
+from neural_shadows.reports import targets
 from neural_shadows.reports.claims import inputs as claims
 from neural_shadows.reports.costs.plan import plan
 from neural_shadows.reports.page import inputs as pages
 from neural_shadows.reports.runs import inputs as runs
-from neural_shadows.reports import targets
 from neural_shadows.running import kernel_cache
 from neural_shadows.running.module_graph import digest, modules_of
 from neural_shadows.training.checkpoints import remove_finished
