@@ -64,7 +64,8 @@ claims.sampling.metrics | [mse_off_edges] | claims.sampling.metrics: 'mse_off_ed
 claims.msm_leaks.metrics | [psnr] | claims.msm_leaks.metrics: 'psnr' is not among
 claims.sampling.radii | [1] | claims.sampling.radii: it needs `table`. Name one
 claims.rays_at_equal_time.radii | null | `rays_of_equal_time` needs radii. List some
-claims.rays_at_equal_time.pairs | [[pcss, rays_of_equal_time]] | soft_windows.methods: 'rays_of_equal_time' is not among
+claims.rays_at_equal_time.pairs | [[ffx_rays_of_equal_time, rays_of_equal_time]] | have no time to be equal to. Name a method as one of the two
+claims.sampling.over | unseen | claims.sampling.over: it needs `table`. Name one
 claims.rays_at_equal_time.table | kpnsm_table_1 | rays_at_equal_time.table: 'kpnsm_table_1' is not among
 claims.sampling.needs | {seed: 3} | needs: unknown key: 'seed' (did you mean 'seeds'?) is not among
 claims.printed_comparable_to_512.row | nothing | rows of table 4.5: 'nothing' is not among

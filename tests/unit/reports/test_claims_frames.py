@@ -97,6 +97,47 @@ def test_frames_are_compared_in_pairs(pair, changes, verdict, words):
     assert words in outcome["evidence"] and "nan" not in outcome["evidence"]
 
 
+def test_a_method_loses_to_the_filtered_rays_of_its_time():
+    """Of 30 ms these are four, whose error is less; of 20 ms two, whose error is more."""
+    labels = {
+        "pcss": "PCSS",
+        "rt_2_ffx": "2 rays, FFX",
+        "rt_4_ffx": "4 rays, FFX",
+        "rt_4": "4 rays",
+    }
+    mse = {"pcss": 0.010, "rt_2_ffx": 0.020, "rt_4_ffx": 0.005, "rt_4": 0.001}
+    errors = [
+        (f"scene {i % 2}", i, 0, OFF, method, mse[method] + 0.001 * (i % 5) * (method == "pcss"))
+        for i in range(20)
+        for method in labels
+    ]
+    verdict_of = {}
+    for own in (25.0, 15.0):  # and the map's 5 ms
+        own_ms = {"pcss": [own], "rt_2_ffx": [18.0], "rt_4_ffx": [27.0], "rt_4": [19.0]}
+        soft = {"soft": table(errors, labels, own_ms)}
+        outcome = judge(claim(("pcss", "ffx_rays_of_equal_time"), radii=[0]), measured(soft=soft))
+        verdict_of[own] = outcome["verdict"]
+        named = {25.0: "against 4 rays, FFX", 15.0: "against 2 rays, FFX"}[own]
+        assert named in outcome["evidence"]
+    assert verdict_of == {25.0: verdicts.CONTRADICTED, 15.0: verdicts.SUPPORTED}
+
+
+def test_a_claim_may_be_on_unseen_scenes_alone():
+    """In the others PCSS errs more."""
+    gains = {f"scene {i}": (0.004 + 0.0001 * i) * (1 if i < 6 else -4) for i in range(12)}
+    errors = [
+        (scene, frame, 0, OFF, method, 0.02 + (method == "msm_15") * gain)
+        for scene, gain in gains.items()
+        for frame in range(3)
+        for method in PAIR
+    ]
+    data_of = measured(soft={"soft": table(errors)})
+    assert judge(claim(PAIR, radii=[0]), data_of)["verdict"] != verdicts.SUPPORTED
+    unseen = claim(PAIR, radii=[0], scenes=[f"scene {i}" for i in range(6)])
+    outcome = judge(unseen, data_of)
+    assert outcome["verdict"] == verdicts.SUPPORTED and "over 6 scenes" in outcome["evidence"]
+
+
 def test_a_point_light_is_named():
     assert "at a point light of PCSS" in judge(claim(PAIR, radii=[0]), data())["evidence"]
 

@@ -51,7 +51,6 @@ class Method:
         tuned_as: key of the method with its constants, if not its own.
         fields: needs fields fitted to a scene's objects.
         package: a required optional package.
-        rays: of a pixel, of a plain ray tracer.
         null: a null predictor, which a network must beat.
         look: if not its family's.
         sequence: of the radius and the constants, if it has a history: a function of the next frame
@@ -85,7 +84,6 @@ class Method:
     tuned_as: str | None = None
     fields: bool = False
     package: str | None = None
-    rays: int | None = None
     null: bool = False
     look: Look | None = None
     sequence: "Callable[..., Callable[[SoftFrame, np.ndarray | None], np.ndarray]] | None" = None

@@ -53,7 +53,7 @@ DENOISERS = {
     "ffx": Denoiser(
         "FFX-like",
         _look("FFX-like filter", SKY, ">", "►", "smoothed within surfaces by the fewest taps."),
-        (1, 2, 3, 4, 6, 8),
+        (1, 2, 3, 4, 6, 8, 12),
         tried={"sigma": _SIGMA},
     ),
     "sigma": Denoiser(

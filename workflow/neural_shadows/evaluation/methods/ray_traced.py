@@ -27,7 +27,7 @@ _BY_RAYS = {"texel_floats": 0, "by_rays": True}
 METHODS = {
     **{
         f"rt_{count}": Method(
-            partial(_from_centres, samples=count), label=rays_label(count), rays=count, **_BY_RAYS
+            partial(_from_centres, samples=count), label=rays_label(count), **_BY_RAYS
         )
         for count in (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 40, 64)
     },

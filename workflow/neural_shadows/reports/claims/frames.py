@@ -1,14 +1,15 @@
 """Methods for soft shadows, compared on the frames of a table."""
 
+import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import TypedDict
 
 import numpy as np
 import pandas as pd
 
-from neural_shadows.evaluation.registry import UNLEARNED, frame_method, is_network
+from neural_shadows.evaluation.registry import UNLEARNED, is_network
 from neural_shadows.frames.feature_names import BASES
 from neural_shadows.layout import tables
 from neural_shadows.layout.layout import Layout
@@ -26,8 +27,8 @@ from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.records import SoftTimes
 
 METRICS = frame_metrics("soft")
-# A claimed winner: the most rays that take no longer than the loser, or than its first seed.
-EQUAL_TIME = "rays_of_equal_time"
+# One of a pair: the most rays of its kind that take no longer than the other, or than its first seed.
+EQUAL_TIME = {"rays_of_equal_time": r"rt_(\d+)", "ffx_rays_of_equal_time": r"rt_(\d+)_ffx"}
 # Rows of rays are 1, 2, 3, 4, 6, 8, 12, …: the most that fit take two thirds or more of a time, less what
 # a frame takes beside its rays.
 LEAST_OF_TIME = 0.6
@@ -85,12 +86,21 @@ class SoftTable:
         size = "all lights" if radius is None else self.radii[radius]
         return "a point light" if size == POINT else size
 
-    def rays_within(self, milliseconds: float, radius: int | None) -> str | None:
-        """The most rays in a time, if any take `LEAST_OF_TIME` of it: fewer are no rival of its time."""
-        rays = {name: frame_method(name).rays for name in self.labels}
-        times = {name: self.milliseconds(name, radius) for name in rays if rays[name]}
+    def rays_within(self, kind: str, milliseconds: float, radius: int | None) -> str | None:
+        """The most rays in a time, if any take `LEAST_OF_TIME` of it: fewer are no rival of its time.
+
+        Args:
+            kind: a key of `EQUAL_TIME`.
+        """
+        matches = {name: re.fullmatch(EQUAL_TIME[kind], name) for name in self.labels}
+        rays = {name: int(match[1]) for name, match in matches.items() if match}
+        times = {name: self.milliseconds(name, radius) for name in rays}
         fitting = [n for n in times if LEAST_OF_TIME * milliseconds <= times[n] <= milliseconds]
         return max(fitting, key=rays.get, default=None)
+
+    def of_scenes(self, scenes: Sequence[str]) -> "SoftTable":
+        """The table of these scenes' frames alone."""
+        return replace(self, values=self.values[self.values.index.isin(scenes, level="scene")])
 
 
 def soft_values(metrics: pd.DataFrame) -> pd.DataFrame:
@@ -133,17 +143,22 @@ def files(layout: Layout, claim: Claim) -> dict[str, list[str]]:
 def comparisons(claim: Claim, data: Measured, null: str = "") -> list[Comparison]:
     """A comparison for each pair, metric and radius, see `_comparison`."""
     table, radii = data.soft[claim["table"]], claim["radii"] or [None]
+    if claim.get("scenes"):
+        table = table.of_scenes(claim["scenes"])
     outcomes = []
-    for (winner, loser), metric, radius in product(claim["pairs"], claim["metrics"], radii):
-        if winner == EQUAL_TIME:
-            limit, label = table.milliseconds(loser, radius), table.labels.get(loser, loser)
-            winner = table.rays_within(limit, radius)
-            if winner is None:
+    for pair, metric, radius in product(claim["pairs"], claim["metrics"], radii):
+        rays = next((method for method in pair if method in EQUAL_TIME), None)
+        if rays is not None:
+            (other,) = set(pair) - {rays}
+            limit, label = table.milliseconds(other, radius), table.labels.get(other, other)
+            rival = table.rays_within(rays, limit, radius)
+            if rival is None:
                 text = f"{label} takes {limit:.1f} ms at {table.light(radius)}"
                 why = f"no number of rays of the table takes {100 * LEAST_OF_TIME:.0f} to 100 % of {limit:.1f} ms"
                 outcomes.append(Comparison(metric, label, text, untested=why))
                 continue
-        outcomes.append(_comparison(claim, table, metric, radius, (winner, loser), null))
+            pair = [rival if method == rays else method for method in pair]
+        outcomes.append(_comparison(claim, table, metric, radius, pair, null))
     return outcomes
 
 
@@ -161,7 +176,7 @@ def without_networks(claim: Claim, data: Measured) -> dict[str, list[Comparison]
 
 def network_wins(claim: Claim) -> bool:
     """Check for a network as claimed winner."""
-    return any(winner != EQUAL_TIME and is_network(winner) for winner, _ in claim["pairs"])
+    return any(winner not in EQUAL_TIME and is_network(winner) for winner, _ in claim["pairs"])
 
 
 def by_all_pixels(claim: Claim) -> Claim | None:

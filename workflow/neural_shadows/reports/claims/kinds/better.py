@@ -28,7 +28,8 @@ class Settings(AnyClaim):
     kind: Literal["better"] = Field(description="`better`")
     pairs: setting_types.Pairs = Field(
         description="methods, the claimed winner first: on viewpoints one of them a network, else "
-        f"those of `table`; `{frames.EQUAL_TIME}` wins by the most rays that take no longer"
+        f"those of `table`; {' and '.join(f'`{rays}`' for rays in frames.EQUAL_TIME)}, plain and filtered, are "
+        "the most rays that take no longer than the other"
     )
     metrics: setting_types.metrics(*ALL_METRICS) | None = Field(
         None,
@@ -47,6 +48,10 @@ class Settings(AnyClaim):
         description="of `table`: numbers of the frame set's radii, from 0; the claim must hold at all "
         "of them; without it the mean over all is compared",
     )
+    over: Literal["all", "unseen"] = Field(
+        "all",
+        description="of `table`: which of its scenes count, all or those that no network trains on",
+    )
     again: setting_types.again(ScreenExperimentName) = Field(
         {}, description="of `table`: by network, its counterparts trained from other seeds"
     )
@@ -58,20 +63,26 @@ class Settings(AnyClaim):
             check_among(f"{key}.metrics", metric, units.METRICS)
         if self.table:
             self._check_table(config, key)
-        elif self.radii or self.again:
-            unused = "radii" if self.radii else "again"
+        elif self.radii or self.again or self.over != "all":
+            unused = "radii" if self.radii else "again" if self.again else "over"
             raise ValueError(f"{key}.{unused}: it needs `table`. Name one")
         else:
             units.check_methods(config, f"{key}.pairs", self.pairs)
 
     def _check_table(self, config: Sections, key: str) -> None:
-        kinds, equal_time = [soft_methods.Settings, soft_summary.Settings], False
-        if any(winner == frames.EQUAL_TIME for winner, _ in self.pairs):
-            equal_time, kinds = True, kinds[:1]  # have times by radius
+        kinds, equal_time = [soft_methods.Settings, soft_summary.Settings], set()
+        for pair in self.pairs:
+            if {*pair} <= frames.EQUAL_TIME.keys():
+                raise ValueError(
+                    f"{key}.pairs: {pair} have no time to be equal to. Name a method as one of the two"
+                )
+            equal_time |= frames.EQUAL_TIME.keys() & {*pair}
+        if equal_time:
+            kinds = kinds[:1]  # have times by radius
         tables = [n for n, table in config.tables.items() if isinstance(table, tuple(kinds))]
         check_among(f"{key}.table", self.table, tables)
         if equal_time and not self.radii:
-            raise ValueError(f"{key}.radii: `{frames.EQUAL_TIME}` needs radii. List some")
+            raise ValueError(f"{key}.radii: `{min(equal_time)}` needs radii. List some")
         table = config.tables[self.table]
         frame_set = config.frame_sets[table.frame_set]
         if isinstance(frame_set, OwnFrames):
@@ -83,6 +94,8 @@ class Settings(AnyClaim):
         for method in self.again:
             networks = [name for name in self._table_methods() if name in config.screen_experiments]
             check_among(f"{key}.again", method, networks)
+        if self.over == "unseen" and not frame_set.unseen:
+            raise ValueError(f"{key}.over: {table.frame_set!r} has no unseen scenes. Choose `all`")
         for k in self.radii or ():
             if k >= len(frame_set.radii):
                 raise ValueError(
@@ -102,12 +115,17 @@ class Settings(AnyClaim):
             return claim | {"rows": [views.compared_rows(config, names) for names in self.pairs]}
         named = filter(is_network, self._table_methods())
         networks = screen_networks.all_seeds(config, named, [*self.again.items()])
-        return claim | {"networks": networks, "bases": frames.bases(config, networks)}
+        frame_set = config.frame_sets[config.tables[self.table].frame_set]
+        scenes = frame_set.unseen if self.over == "unseen" else None
+        return claim | {
+            "networks": networks,
+            "bases": frames.bases(config, networks),
+            "scenes": scenes,
+        }
 
     def _table_methods(self) -> list[str]:
-        """The methods of all pairs but winners of equal time."""
-        pairs = [pair[pair[0] == frames.EQUAL_TIME :] for pair in self.pairs]
-        return [method for pair in pairs for method in pair]
+        """The methods of all pairs but rays of equal time."""
+        return [m for pair in self.pairs for m in pair if m not in frames.EQUAL_TIME]
 
 
 def source(claim: Claim) -> ModuleType:
