@@ -97,6 +97,16 @@ def test_what_a_scale_compares_with_the_thesis_s_network_has_its_samples_and_ray
     assert kept == desk
 
 
+def test_claims_on_unseen_scenes_name_them():
+    settings = resolved(read_config(shipped()))
+    claim = settings["claims"]["shipped_rays_better_than_filters_of_its_time"]
+    assert (
+        claim["scenes"] == settings["frame_sets"]["windows"]["unseen"]
+        and len(claim["scenes"]) == 13
+    )
+    assert settings["claims"]["pcss_better_than_moments"]["scenes"] is None
+
+
 def test_rows_of_tables(settings, changed):
     rows = settings["tables"]["table_4_3"]["rows"]
     assert rows[0] == row("shadow_map_2048", "2048² shadow map", "shadow_map_2048")

@@ -16,12 +16,12 @@ def errors(off, target=TARGET, valid=VALID, solids=SOLIDS):
 
 
 def test_each_number_of_solids_has_its_error():
-    """A squared error of 0.01 for each; three and more are one class, and counted as they are."""
-    found = errors(np.sqrt(0.01 * np.float64(SOLIDS)))
+    """A squared error of 0.01 for each, five of which are three."""
+    found = errors(np.sqrt(0.01 * np.minimum(np.float64(SOLIDS), 3)))
     means = [found[f"mse_solids_{number}"] for number in (1, 2, 3)]
-    assert means == pytest.approx([0.01, 0.02, 0.04], rel=1e-4)
+    assert means == pytest.approx([0.01, 0.02, 0.03], rel=1e-4)
     assert found["mse_per_solid"] == pytest.approx(0.01, rel=1e-4)
-    assert found["solids_behind"] == 2.75 and found["mse_behind"] == pytest.approx(0.0275, rel=1e-4)
+    assert found["solids_behind"] == 2.25 and found["mse_behind"] == pytest.approx(0.0225, rel=1e-4)
     assert errors(0.1 + 0 * SOLIDS)["mse_per_solid"] == pytest.approx(0, abs=1e-8)
 
 

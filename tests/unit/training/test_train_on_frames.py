@@ -218,8 +218,8 @@ def test_crops_depend_on_seed_and_step_alone(tmp_path):
 
 
 def test_features_are_normalised_by_all_valid_pixels_of_frames_and_lights(tmp_path):
-    """Of 40 frames every third."""
-    frames = ScreenFrames([write_frames(tmp_path, count=40)], FEATURES)
+    """Of 40 frames every third; a normal has three channels, here without any spread."""
+    frames = ScreenFrames([write_frames(tmp_path, count=40)], [*FEATURES, "n"])
     pixels = [
         frames.features(frame, radius)[:, frames.valid(frame)]
         for frame in range(0, 40, 3)
@@ -228,7 +228,8 @@ def test_features_are_normalised_by_all_valid_pixels_of_frames_and_lights(tmp_pa
     pixels = np.concatenate(pixels, axis=1).astype(np.float64)
     means, deviations = frames.ranges()
     assert np.allclose(means, pixels.mean(axis=1), rtol=1e-6, atol=1e-7)
-    assert np.allclose(deviations, pixels.std(axis=1), rtol=1e-5)
+    assert len(means) == 7 and (deviations[-3:] == 1).all()
+    assert np.allclose(deviations[:4], pixels[:4].std(axis=1), rtol=1e-5)
 
 
 def test_images_of_validations_are_spread_over_frames_and_lights(tmp_path):

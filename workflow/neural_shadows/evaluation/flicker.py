@@ -1,5 +1,6 @@
 """A method's flicker over a sequence of frames."""
 
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
@@ -8,7 +9,7 @@ import numpy as np
 from neural_shadows.evaluation.answers import flicker_name
 from neural_shadows.evaluation.measured_frames import MeasuredFrame
 from neural_shadows.evaluation.method import Constants, Method
-from neural_shadows.evaluation.sequences import answer_sequence, error_of
+from neural_shadows.evaluation.sequences import answer_sequence
 from neural_shadows.metrics.registry import measure
 from neural_shadows.rendering.reprojection import looked_up
 
@@ -22,12 +23,12 @@ def flicker(
     """Instability over a sequence, of the middle radius.
 
     Of the method, the exact shadow, and the method's frames each averaged with the one before
-    (`_taa`); with squared errors off the geometry's edges. One frame of history is what Datta et al. 2022 (4) compare with.
+    (`_taa`); with squared errors, also off the geometry's edges. One frame of history is what Datta et al. 2022 (4) compare with.
     Returns: the columns of the metrics, the metrics by name, and mean changes of each pixel,
         (height, width), by name, see `answers`.
     """
     changes: dict[str, list[np.ndarray]] = {"": [], "_reference": [], "_taa": []}
-    errors: dict[str, list[float]] = {"_sequence": [], "_taa": []}
+    errors = defaultdict(list)
     images = answer_sequence(frames, method, constants)
     before, last, _ = next(images)
     averaged = last
@@ -47,16 +48,20 @@ def flicker(
         ):
             changes[name].append(new.ravel()[pixel] - looked_up(old, pixels_before))
             sums[name][pixel] += np.abs(changes[name][-1])
-        for name, image in (("_sequence", visibility), ("_taa", blended)):
-            errors[name].append(error_of(now, image))
+        pixels_of = {"": now.valid, "_off_edges": now.off_edges}
+        for name, image in (("sequence", visibility), ("taa", blended)):
+            square = np.square(image - target)
+            for ending, mask in pixels_of.items():
+                if mask is not None:
+                    errors[f"mse_{name}{ending}"].append(float(square[mask].mean()))
         before, last, averaged = now, visibility, blended
         advance()
     pixels = part.about["width"] * part.about["height"]
-    values = {f"mse{name}": float(np.mean(each)) for name, each in errors.items()}
+    values = {name: float(np.mean(each)) for name, each in errors.items()}
     for name, each in changes.items():
         changed = measure("of_changes", "soft", each, pixels)
         values |= {f"{metric}{name}": value for metric, value in changed.items()}
-    count = len(errors["_sequence"])
+    count = len(errors["mse_sequence"])
     maps = {name: (total / count).reshape(last.shape) for name, total in sums.items()}
     path = part.frames_json
     named = {flicker_name(path): maps[""], flicker_name(path, True): maps["_reference"]}

@@ -40,15 +40,11 @@ def answer_sequence(
 
 
 def squared_error(frames: Sequence[MeasuredFrame], method: Method, constants: Constants) -> float:
-    """Mean squared error of a sequence's frames after the first, by the middle radius."""
+    """Mean squared error off edges of a sequence's frames after the first, by the middle radius."""
     of_all = [constants] * len(frames[0].part.radii)
     _, *later = answer_sequence(frames, method, of_all)
-    return float(np.mean([error_of(frame, image) for frame, image, _ in later]))
-
-
-def error_of(frame: MeasuredFrame, image: np.ndarray) -> float:
-    """Mean squared error of an image (H, W) by the middle radius, off the geometry's edges."""
-    return float(np.square(image - frame.target[frame.middle])[frame.judged].mean())
+    squares = [np.square(image - f.target[f.middle])[f.judged].mean() for f, image, _ in later]
+    return float(np.mean(squares))
 
 
 def _seen(before: MeasuredFrame, now: MeasuredFrame) -> tuple[Seen, np.ndarray]:

@@ -70,9 +70,11 @@ def tune(
         in_sequence = [*kind.open_frames(replace(inputs, frames=[sequence]))]
         errors = partial(_sequence_errors, in_sequence, tuned, f"the history {title}")
         _search(tuned, [about["history"]], ["mse"], errors)
-    for best in (*by_radius, *([about["history"]] if sequence else [])):
+    searched = [("", best) for best in by_radius]
+    searched += [(" over time", about["history"])] if sequence else []
+    for when, best in searched:
         for name in best["at_end"]:
-            value = f"{name.replace('_', ' ')}, {best['constants'][name]}"
+            value = f"{name.replace('_', ' ')}{when}, {best['constants'][name]}"
             print(f"{method}: the best {value}, ends the search")  # the table says so, too
     write_json(constants_json, about | describe_origin())
 

@@ -11,7 +11,7 @@ from torch import Tensor
 
 from neural_shadows.errors import InputError
 from neural_shadows.frames.aligned_twins import ALIGNED_BY, twin_pixels
-from neural_shadows.frames.feature_names import BASES, TRACED, buffers_of
+from neural_shadows.frames.feature_names import BASES, TRACED, buffers_of, channels_of
 from neural_shadows.frames.features import named_features
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.rendering.gbuffer import Lens, lens_of
@@ -157,7 +157,7 @@ class ScreenFrames:
         Over valid pixels of up to 16 frames, for all radii together; deviation 1 of a constant
         channel.
         """
-        count, sums = 0, np.zeros((2, len(self._features)))
+        count, sums = 0, np.zeros((2, channels_of(self._features)))
         # A frame at a time: of 2048 × 1024 all together are 10 GB.
         for frame in range(0, len(self), -(-len(self) // 16)):
             for radius in range(self.radii):

@@ -10,7 +10,8 @@ from neural_shadows.evaluation.method import Method
 if TYPE_CHECKING:
     from neural_shadows.frames.soft_frame import SoftFrame
 
-# Its bias is one texel's: times a third or three, 10 to 65 % and 2 to 30 % more were left, in frames and windows.
+# Its bias is one texel's: times a third, errors off edges were 1.1 to 5 times as large, times three 1.02 to 1.3
+# times, under the lights of `frames` and of `windows` (first test frames of nine scenes each).
 LOOK = Look("shadow map", GREY, "s", "■", "One test a pixel against the light map.")
 
 

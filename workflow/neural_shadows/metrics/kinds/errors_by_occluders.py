@@ -6,7 +6,7 @@ from neural_shadows.metrics.kinds.errors_of_visibility import LIT, UMBRA
 from neural_shadows.metrics.metric import Metric
 
 WIDEST = 90  # percentile of a frame's penumbra pixels by their penumbra's width
-MOST = 3  # solids: more are counted with these
+MOST = 3  # solids: more are counted as these
 
 _SQUARED = {"unit": "× 10⁻⁴", "factor": 1e4, "digits": 1, "lights": ("soft",)}
 METRICS = {
@@ -33,7 +33,7 @@ def of_occluders(
     `mse_widest`: of the tenth of the pixels in a penumbra whose penumbra is widest. `mse_solids_1`, …:
     of those with this number of solids before the light, `mse_behind` of those with any, and
     `solids_behind` their mean number. `mse_per_solid`: by how much the error grows with
-    each solid, by least squares; NaN where all have the same number.
+    each solid, more than `MOST` as `MOST`, by least squares; NaN where all have the same number.
 
     Args:
         visibility, target: (H, W) float32 in [0, 1]; valid: bool. solids: see `solids_before`.
@@ -43,11 +43,10 @@ def of_occluders(
     penumbra = valid & (target >= UMBRA) & (target <= LIT) & (widths > 0)
     threshold = np.percentile(widths[penumbra], WIDEST) if penumbra.any() else np.inf
     behind = valid & (solids > 0)
-    counts, of_behind = solids[behind].astype(np.float64), square[behind]
+    counts, of_behind = np.minimum(solids[behind], MOST).astype(np.float64), square[behind]
     errors = {"mse_widest": _mean(square[penumbra & (widths >= threshold)])}
     errors |= {
-        f"mse_solids_{number}": _mean(of_behind[np.minimum(counts, MOST) == number])
-        for number in range(1, MOST + 1)
+        f"mse_solids_{number}": _mean(of_behind[counts == number]) for number in range(1, MOST + 1)
     }
     errors |= {"mse_behind": _mean(of_behind), "solids_behind": _mean(counts)}
     return errors | {"mse_per_solid": _slope(counts, of_behind)}

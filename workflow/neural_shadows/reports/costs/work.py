@@ -276,7 +276,8 @@ def tune(layout: Layout, frame_set: str, group: str, method: str) -> Work:
         tried /= SHARED
     answers = tried * pixels * _lights(layout, frame_set)
     if frame_methods.has_history(method) and (length := layout.frames(frame_set)["sequence"]):
-        answers += sum(counts) * (RUN_IN + length) * _size(layout, frame_set)
+        of_history = math.prod(counts) if tuned.joint else sum(counts)
+        answers += of_history * (RUN_IN + length) * _size(layout, frame_set)
     return Work(LIGHT_START, 5.0 * pixels) + _answers(layout, method, answers)
 
 

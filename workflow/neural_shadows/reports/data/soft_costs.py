@@ -22,10 +22,14 @@ def describe_times(times: SoftTimes) -> list[str]:
         return []
     share = times["share"]
     maps = ", ".join(f"{one['ms']:.1f} of {side}²" for side, one in times["maps"].items())
-    part = f"; {share:.1%} of a whole frame's, of which it is a window" if share < 1 else ""
+    part = (
+        f"; all are {share:.1%} of those of whole frames, which are timed in their windows' place"
+        if share < 1
+        else ""
+    )
     return [
-        f"ms: median of {times['frames']} frames, each the median of {times['repeats']}, or one above "
-        f"{times['once_above_ms']} ms, one thread of {times['machine']['cpu']}; with a light map "
+        f"ms: median of {times['frames']} frames, each the median of {times['repeats']}, or one of what "
+        f"takes more than {times['once_above_ms']} ms, one thread of {times['machine']['cpu']}; with a light map "
         f"its rasterisation is included ({maps}){part}."
     ]
 

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 from pydantic import Field
 
-from neural_shadows.reports.data.frame_means import OFF_EDGES, mean_with_interval, squared_errors
+from neural_shadows.reports.data.frame_means import OFF_EDGES, squared_errors
 from neural_shadows.reports.data.soft_frames import TrainedFrames, learned_rows
 from neural_shadows.reports.data.table import Table, filled, number_cells
 from neural_shadows.sections.frame_tables import NetworksTable
@@ -117,11 +117,12 @@ def _tested(own: pd.DataFrame, record: TrainingRecord) -> Iterator[dict[str, Any
         for light, of_light in [*errors.groupby("radius"), (ALL, errors)] if len(errors) else []:
             row = {"frames": scene, "learned": learned, "light": str(light)}
             yield row | squared_errors(of_light) | _widths(own, scene, light)
-    paths = own[own["metric"] == "mse_sequence"]
+    in_sequences = {"mse_sequence": "mse", "mse_sequence_off_edges": OFF_EDGES}
+    paths = own[own["metric"].isin(in_sequences)]
     if len(paths):
         row = {"frames": SEQUENCES, "learned": paths["scene"].iloc[0] in record["scenes"]}
         row |= {"light": str(paths["radius"].iloc[0])}
-        yield row | mean_with_interval(paths.set_index("scene")["value"], "mse")
+        yield row | squared_errors(paths.assign(metric=paths["metric"].map(in_sequences)))
 
 
 def _widths(own: pd.DataFrame, scene: str, light: Any) -> dict[str, float]:

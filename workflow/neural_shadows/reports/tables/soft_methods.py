@@ -43,7 +43,7 @@ MEANS = (*PARTS, *SHARES, *IMAGES)
 FLICKER = (
     *("instability", "instability_reference", "instability_taa"),
     *("temporal_error", "temporal_error_reference", "temporal_error_taa"),
-    *("mse_sequence", "mse_taa"),
+    *("mse_sequence", "mse_sequence_off_edges", "mse_taa", "mse_taa_off_edges"),
 )
 
 
@@ -223,8 +223,8 @@ def _describe_flicker(
         f"{', '.join(parts['scene'].unique())} with a moving: {kinds} (the CSV has each), at a "
         f"radius of {radii[int(shown['number'].iloc[0])]:.3g} {unit}. E of the reference: "
         f"{shown['instability_reference'].iloc[0]:.3f}. In sequences the SVGF-, FFX- and "
-        "SIGMA-like filters have their history, and squared errors are off edges (in the CSV); all other "
-        "columns are of single frames."
+        "SIGMA-like filters have their history; all other columns are of single frames. The CSV has the "
+        "squared errors of sequences, also off edges."
     ]
 
 
