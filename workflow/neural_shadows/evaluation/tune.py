@@ -36,10 +36,9 @@ def tune(
     """Find the constants of least error, by radius.
 
     Of frames and sequences the mean squared error off the geometry's edges, of views the share of points in
-    error.
-    One constant after another, the others at their best so far, or where the search begins: 5 settings of
-    two constants with three values each, instead of all 9; as many rounds as `Method.rounds`. Or jointly,
-    see `Method.joint`. It begins in the middle of the candidates, without `Method.last`.
+    error. One constant after another, the others at their best so far, or where the search begins: 5
+    settings of two constants with three values each, instead of all 9; as many rounds as `Method.rounds`.
+    Or jointly, see `Method.joint`. It begins in the middle of the candidates, without `Method.last`.
 
     Args:
         frames: validation frames of all scenes, or held-out views of one, which no evaluation uses.
