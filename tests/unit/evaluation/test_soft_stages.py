@@ -323,23 +323,28 @@ def test_a_method_pays_for_what_it_sees_at_other_places(folder, monkeypatch):
 
 
 def test_a_window_bears_its_share_of_its_frame(tmp_path, monkeypatch):
-    """A quarter of the frame's width and half of its height; a method's work on all of a map is shared, too."""
+    """A quarter of the frame's width and half of its height, of whatever takes 80 ms of the frame."""
     sizes = []
 
     def answer(frame, radius):
         sizes.append((frame.surface.width, frame.surface.height))
-        time.sleep(0.04)
         return np.ones(len(frame.from_light), np.float32)
+
+    def measured(works, repeats):
+        for work in works.values():
+            work()
+        return dict.fromkeys(works, 80.0)
 
     window = {"of": [192, 48], "light_map": {"kind": "cube", "resolution": 64}}
     part = render_part(tmp_path / "blinds", "test", window, last=1, samples=1)
     monkeypatch.setattr(timing, "open_methods", lambda name, inputs: lambda scene: Method(answer))
+    monkeypatch.setattr(timing, "medians", measured)
     out = tmp_path / "times.json"
     time_methods([part], [], [], [], [], out, methods={"mine": None}, repeats=1)
     times = json.loads(out.read_text())
-    assert times["share"] == 1 / 8 and times["maps"]["64"]["ms"] > 0
+    assert times["share"] == 1 / 8 and times["maps"]["64"]["ms"] == 10
     assert set(sizes) == {(48, 24), (192, 48)} and sizes[-1] == (192, 48)
-    assert all(5 <= ms < 40 for ms in times["methods"]["mine"]["ms"])
+    assert times["methods"]["mine"]["ms"] == [10] * len(RADII)
     assert "12.5% of those of whole frames" in describe_times(times)[0]
 
 

@@ -89,9 +89,8 @@ def test_overfits_a_frame(tmp_path):
     network = SETTINGS["network"] | {"widths": [32, 64, 128]}
     result = run(tmp_path, part, network=network, training=training)
     assert result["null_mse"]["hard_map"][1] > 0.01
-    assert (
-        max(result["validation_mse"]) < 2e-3
-    )  # 0.0003 to 0.0010 of the hard shadow over four seeds
+    # Of the hard shadow 0.0003 to 0.0010, over four seeds.
+    assert max(result["validation_mse"]) < 2e-3
     assert result["train_mse"] == result["validation_mse"]  # of the same frame
     assert result["train_null_mse"] == result["null_mse"]
     assert [entry["step"] for entry in result["validations"]] == list(range(20, 201, 20))

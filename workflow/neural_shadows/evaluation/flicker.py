@@ -23,7 +23,8 @@ def flicker(
     """Instability over a sequence, of the middle radius.
 
     Of the method, the exact shadow, and the method's frames each averaged with the one before
-    (`_taa`); with squared errors, also off the geometry's edges. One frame of history is what Datta et al. 2022 (4) compare with.
+    (`_taa`); with squared errors, also off the geometry's edges. One frame of history is what Datta et
+    al. 2022 (4) compare with.
     Returns: the columns of the metrics, the metrics by name, and mean changes of each pixel,
         (height, width), by name, see `answers`.
     """
