@@ -32,8 +32,8 @@ def find_lpips(trunk: Path | None, lpips_json: Path, lpips_onnx: Path, *, net: N
             # Without the path of the cache in a home directory: reports show the reason.
             cause = getattr(error, "reason", None) or getattr(error, "strerror", None) or error
             reason = (
-                f"torchvision's weights of {MODELS[net]} cannot be downloaded ({cause}). Try again "
-                "by `--forcerun find_lpips`, or set the config key metrics.lpips.trunk to a local copy."
+                f"torchvision's weights of {MODELS[net]} cannot be downloaded ({cause}). Set the "
+                f"config key metrics.lpips.trunk to a local copy."
             )
             print(f"LPIPS is left out: {reason}", file=sys.stderr)
             part.touch()
