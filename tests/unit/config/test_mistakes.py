@@ -185,6 +185,8 @@ tables.soft_methods.methods | [pcss, pcss] | tables.soft_methods.methods: 'pcss'
 claims.kpnsm_leaks_less.again | {pcss_post: [kpnsm]} | claims.kpnsm_leaks_less.again: 'pcss_post' is not among kpnsm
 claims.kpnsm_leaks_less.again | {msm_15: [kpnsm_basic]} | claims.kpnsm_leaks_less.again: 'msm_15' is not among kpnsm
 claims.kpnsm_leaks_less.again | {kpnsm: [kpnsm_basic]} | again.kpnsm: 'kpnsm_basic' has another network than 'kpnsm'. Let it differ in `seed`
+claims.kpnsm_joint_training_costs_nsm.again | {kpnsm_nsm_single: [kpnsm]} | 'kpnsm' has 1 networks, not 5. List one for each
+claims.kpnsm_leaks_less.again | {kpnsm: [kpnsm_s]} | again.kpnsm: 'kpnsm_s' (did you mean
 claims.kpnsm_leaks_less.again | {kpnsm: [kpnsm]} | claims.kpnsm_leaks_less.again: 'kpnsm' is listed twice
 claims.nsm_wider_with_the_light.again | {nsm_between: [nsm_between]} | claims.nsm_wider_with_the_light.again: 'nsm_between' is listed twice
 """

@@ -21,16 +21,15 @@ from neural_shadows.reports.data.trained import THESIS_SAMPLES
 
 # Folders of the run in which each table is once.
 PARTS = ("spanhoff_2026", "extensions", "soft_shadows", "datta_2022", "hu_2025")
+# Columns of `screen_temporal`, of which no committed run is yet.
+NEWER_THAN_THE_REFERENCE = ("mse_sequence_off_edges", "edge_width")
 
 
-def claims(*kinds):
-    """The thesis's claims of some kinds; of others see whether they find their numbers."""
+@functools.cache
+def of_the_thesis(kind):
+    """The thesis's claims of a kind; of others see whether they find their numbers."""
     shipped_claims = resolved(read_config(shipped()))["claims"].items()
-    return [
-        pytest.param(claim, id=name)
-        for name, claim in shipped_claims
-        if claim["text"] == "thesis" and claim["kind"] in kinds
-    ]
+    return {n: x for n, x in shipped_claims if x["text"] == "thesis" and x["kind"] == kind}
 
 
 def data_of(claim, contrary):
@@ -59,17 +58,26 @@ def quality(error):
     return {"lpips": spread, "psnr": -10 * np.log10(spread), "ssim": 1 - spread}
 
 
-@pytest.mark.parametrize("claim", claims("better"))
+@pytest.mark.parametrize("name", of_the_thesis("better"))
 @pytest.mark.parametrize(("contrary", "verdict"), [(False, "supported"), (True, "contradicted")])
-def test_a_claim_has_the_verdict_that_its_data_carry(claim, contrary, verdict):
+def test_a_claim_has_the_verdict_that_its_data_carry(name, contrary, verdict):
+    claim = of_the_thesis("better")[name]
     outcome = judge(claim, data_of(claim, contrary))
     assert outcome["verdict"] == verdict, outcome["reason"]
 
 
-@pytest.mark.parametrize("claim", claims("printed"))
-def test_the_thesis_s_tables_carry_its_text_but_on_widths(claim):
-    verdict = "contradicted" if "width" in claim["statement"] else "supported"
-    assert judge(claim, measured())["verdict"] == verdict
+def test_the_thesis_s_tables_carry_its_text_but_for_three_sentences():
+    """By LPIPS the dragon's is as a map of 386², nearer to 512² than to 256² by less than trainings differ."""
+    verdict_of = {
+        name: judge(claim, measured())["verdict"]
+        for name, claim in of_the_thesis("printed").items()
+    }
+    assert {name: verdict for name, verdict in verdict_of.items() if verdict != "supported"} == {
+        "printed_wider_is_worse_on_the_landscape": "contradicted",
+        "printed_dragon_comparable_to_512": "undecided",
+        "printed_fence_comparable_to_512": "contradicted",
+    }
+    assert len(verdict_of) > 5
 
 
 @functools.cache
@@ -111,8 +119,8 @@ def numbers_of(name):
                 **dict.fromkeys(("runtime", "size", "error", "error_off_edges"), 1.0)
             )
         case "screen_temporal":
-            columns = dict.fromkeys(pd.read_csv(path), 1.0) | {"null": np.nan}
-            return pd.DataFrame(columns | {"label": with_taa(labels_of(name))})
+            columns = dict.fromkeys([*pd.read_csv(path), *NEWER_THAN_THE_REFERENCE], 1.0)
+            return pd.DataFrame(columns | {"null": np.nan, "label": with_taa(labels_of(name))})
         case "screen_errors" if path == reference:
             frames = layout.entry("frame_sets", table["frame_set"])
             lights = [*range(len(frames["radii"])), "all"]

@@ -187,7 +187,10 @@ def test_flicker_by_what_moves(made):
         }.items()
     ]
     rows.append({"metric": "mse_edge", "value": 0.5})
+    # Of the point light, the first of two.
+    rows += [{"metric": "width", "radius": k, "value": width} for k, width in enumerate((3, 30))]
     table, text = made(screen_temporal, {"five": rows}, labels={"five": "Five"})
+    assert table["edge_width"].tolist() == pytest.approx([3, np.nan], nan_ok=True)
     assert table["label"].tolist() == ["Five", "Five + TAA"]
     assert table["e_light"].tolist() == [0.4, 0.2] and table["e_camera"].tolist() == [0.2, 0.1]
     assert table["mse_sequence"].tolist() == [0.02, 0.03] and table["mse_edge"][0] == 0.5

@@ -1,6 +1,6 @@
 """Trained screen-space networks of claims, from several seeds."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from neural_shadows.layout.layout import Layout
 from neural_shadows.reports.claims.measured import Claim, Measured, trained_screen_networks
@@ -11,8 +11,8 @@ OtherSeeds = Sequence[tuple[str, Sequence[str]]]  # a network, and those from ot
 
 
 def check_seeds(config: Sections, key: str, other_seeds: OtherSeeds) -> None:
-    """Check that networks differ in their seed alone."""
-    for network, others in other_seeds:
+    """Check that networks differ in their seed alone. Of one per scene each with its counterparts."""
+    for network, others in _by_experiment(config, key, other_seeds):
         again_key, seeds = f"{key}.again.{network}", {}
         for name in others:
             if unlike := config.differences(network, name):
@@ -30,15 +30,30 @@ def check_seeds(config: Sections, key: str, other_seeds: OtherSeeds) -> None:
             seeds[seed] = name
 
 
+def _by_experiment(
+    config: Sections, key: str, other_seeds: OtherSeeds
+) -> Iterator[tuple[str, Sequence[str]]]:
+    for network, others in other_seeds:
+        own, *counterparts = (_experiments(config, name) for name in (network, *others))
+        for name, experiments in zip(others, counterparts):
+            if len(experiments) != len(own):
+                raise ValueError(
+                    f"{key}.again.{network}: {name!r} has {len(experiments)} networks, not {len(own)}. List "
+                    "one for each scene, in the same order"
+                )
+        for number, experiment in enumerate(own):
+            yield experiment, [experiments[number] for experiments in counterparts]
+
+
 def all_seeds(config: Sections, named: Iterable[str], other_seeds: OtherSeeds) -> list[str]:
     """Networks and those from other seeds, as experiments."""
     names = [*named, *(name for _, names in other_seeds for name in names)]
+    return [experiment for name in names for experiment in _experiments(config, name)]
+
+
+def _experiments(config: Sections, name: str) -> list[str]:
     by_scene = config.networks_by_scene
-    return [
-        experiment
-        for name in names
-        for experiment in (by_scene[name].experiments if name in by_scene else [name])
-    ]
+    return by_scene[name].experiments if name in by_scene else [name]
 
 
 def files(layout: Layout, claim: Claim) -> dict[str, list[str]]:

@@ -45,6 +45,8 @@ def table(soft: TrainedFrames) -> Table:
         f"{metrics()['mse'].label} in sequences": metric_column(table, "mse", "mse_sequence"),
         "in sequences, off edges": metric_column(table, "mse", "mse_sequence_off_edges"),
         f"{metrics()['mse'].label} at edges": metric_column(table, "mse_edge"),
+        "edge width, px": numbers(table["edge_width"], "{:.1f}"),
+        "exact": numbers(table["edge_width_reference"], "{:.1f}"),
     }
     notes = [
         "E: mean of exp(3 |change|) − 1 along a point's motion over a sequence (3.4), by what moves "
@@ -53,7 +55,9 @@ def table(soft: TrainedFrames) -> Table:
         "than the exact shadow of a pixel's centre.",
         f"Sequences have a {lights[len(lights) // 2]}. TAA: each frame averaged with the one before, "
         f"at points seen in both. What has a history begins with {RUN_IN} frames at rest in the first "
-        "view. Edges: within 3 pixels of a point light's shadow edges, in test frames, of all lights.",
+        "view. Edges: within 3 pixels of a point light's shadow edges, in test frames, of all lights. Edge "
+        "width: of a point light's edges alone, which is what sharpness is; the area with visibilities of 10 to "
+        "90 %, × 1.25, over the edges' length.",
         *soft.notes(),
     ]
     return Table(whole, columns, notes)
@@ -66,9 +70,10 @@ def temporal_table(soft: TrainedFrames) -> pd.DataFrame:
 
     Columns: `method`, `label`, `null` (its name, None of a method), `taa`; by what moves in a
     sequence `e_camera`, …, and `reference_camera`, …, of the exact shadow; `mse_sequence`,
-    `mse_sequence_off_edges`, and `mse_edge` of test frames, NaN with TAA.
+    `mse_sequence_off_edges`; of test frames, NaN with TAA, `mse_edge`, and of a point light, NaN without
+    one, `edge_width` and `edge_width_reference`, pixels.
     """
-    rows = []
+    rows, point = [], next((k for k, radius in enumerate(soft.radii) if not radius), None)
     methods = [(method, label, None) for method, label in soft.labels.items()]
     nulls = [(null, label, null) for null, label in soft.nulls.items()]
     for method, label, null in [*methods, *nulls]:
@@ -82,7 +87,11 @@ def temporal_table(soft: TrainedFrames) -> pd.DataFrame:
             for ending in ("", "_off_edges"):
                 measured = f"mse_taa{ending}" if taa else f"mse_sequence{ending}"
                 row[f"mse_sequence{ending}"] = _mean(own, measured)
-            row["mse_edge"] = float("nan") if taa else _mean(own, "mse_edge")
+            frames = own[:0] if taa else own
+            row["mse_edge"] = _mean(frames, "mse_edge")
+            under_a_point = frames[frames["radius"] == point]
+            for ending in ("", "_reference"):
+                row[f"edge_width{ending}"] = _mean(under_a_point, f"width{ending}")
             rows.append(row)
     return pd.DataFrame(rows)
 

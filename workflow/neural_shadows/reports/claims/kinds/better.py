@@ -11,7 +11,6 @@ from neural_shadows.reports.claims.measured import Claim
 from neural_shadows.reports.data.frame_means import OFF_EDGES
 from neural_shadows.reports.tables import soft_methods, soft_summary
 from neural_shadows.sections.any_report import AnyClaim
-from neural_shadows.sections.experiments import ScreenExperimentName
 from neural_shadows.sections.own_frames import OwnFrames
 from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.base import Name, check_among
@@ -29,7 +28,8 @@ class Settings(AnyClaim):
     pairs: setting_types.Pairs = Field(
         description="methods, the claimed winner first: on viewpoints one of them a network, else "
         f"those of `table`; {' and '.join(f'`{rays}`' for rays in frames.EQUAL_TIME)}, plain and filtered, are "
-        "the most rays that take no longer than the other"
+        "those of the other's time: the claim must hold, or fail, with the most that take no longer and with "
+        "the next larger number, whichever is worse, or better, for it"
     )
     metrics: setting_types.metrics(*ALL_METRICS) | None = Field(
         None,
@@ -52,8 +52,10 @@ class Settings(AnyClaim):
         "all",
         description="of `table`: which of its scenes count, all or those that no network trains on",
     )
-    again: setting_types.again(ScreenExperimentName) = Field(
-        {}, description="of `table`: by network, its counterparts trained from other seeds"
+    again: setting_types.again(Name) = Field(
+        {},
+        description="of `table`: by network, one of `experiments` or of `networks_by_scene`, its counterparts "
+        "trained from other seeds",
     )
 
     def check(self, config: Sections, key: str) -> None:
@@ -91,9 +93,11 @@ class Settings(AnyClaim):
             )
         for method in self._table_methods():
             check_among(f"{key}: {self.table}.methods", method, table.methods_shown())
-        for method in self.again:
-            networks = [name for name in self._table_methods() if name in config.screen_experiments]
-            check_among(f"{key}.again", method, networks)
+        for method, others in self.again.items():
+            check_among(f"{key}.again", method, [*filter(is_network, self._table_methods())])
+            for other in others:
+                networks = [*config.screen_experiments, *config.networks_by_scene]
+                check_among(f"{key}.again.{method}", other, networks)
         if self.over == "unseen" and not frame_set.unseen:
             raise ValueError(f"{key}.over: {table.frame_set!r} has no unseen scenes. Choose `all`")
         for k in self.radii or ():
