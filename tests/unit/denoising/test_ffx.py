@@ -12,6 +12,7 @@ from scipy.ndimage import convolve, convolve1d
 
 from neural_shadows.denoising.ffx import FfxFilter, TemporalFfx
 from neural_shadows.denoising.mixed_blocks import SIDE, Neighbourhoods
+from neural_shadows.rendering.reprojection import Reprojection
 
 
 def neighbourhood(picture):
@@ -84,11 +85,12 @@ def test_noise_over_time_and_a_sudden_change():
     """A lasting picture is kept; one that is another all around is taken at once."""
     surface, temporal = plate_frame().surface, TemporalFfx(ROWS, COLS)
     rays = np.random.default_rng(0).random((12, ROWS, COLS)) < 0.5
-    pictures = [temporal.next_frame(one.astype(np.float32), surface) for one in rays]
+    back = Reprojection(surface, surface)
+    pictures = [temporal.next_frame(one.astype(np.float32), surface, back) for one in rays]
     alone = FfxFilter(ROWS, COLS).single(rays[-1].astype(np.float32), surface)
     assert np.std(pictures[-1]) < np.std(alone) / 1.5
     assert abs(pictures[-1].mean() - rays.mean()) < 0.02
-    assert np.array_equal(temporal.next_frame(constant(1), surface), constant(1))
+    assert np.array_equal(temporal.next_frame(constant(1), surface, back), constant(1))
 
 
 def test_a_wall_of_one_pixel_in_width():

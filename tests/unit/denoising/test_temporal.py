@@ -9,6 +9,7 @@ from neural_shadows.denoising.sigma import SigmaFilter, TemporalSigma
 from neural_shadows.denoising.sigma_ffx import SigmaFfxTrials, TemporalSigmaFfx
 from neural_shadows.denoising.svgf import SvgfTrials
 from neural_shadows.denoising.temporal import TemporalFilter
+from neural_shadows.rendering.reprojection import Reprojection
 
 KINDS = {
     "svgf": TemporalFilter,
@@ -43,10 +44,11 @@ def alone(key, visibility, surface):
 
 def sequence(key, shifts, seed=0):
     """Pictures of a sequence's frames, whose camera moves by `shifts`."""
-    rng, filter_ = np.random.default_rng(seed), KINDS[key](HEIGHT, WIDTH)
+    rng, filter_, before = np.random.default_rng(seed), KINDS[key](HEIGHT, WIDTH), None
     for shift in shifts:
-        visibility = noisy(plate_truth(shift), rng)
-        found = filter_.next_frame(*pictures(key, visibility), plate_frame(shift).surface)
+        visibility, surface = noisy(plate_truth(shift), rng), plate_frame(shift).surface
+        back = before and Reprojection(surface, before)
+        found, before = filter_.next_frame(*pictures(key, visibility), surface, back), surface
         assert found.dtype == np.float32 and found.min() >= 0 and found.max() <= 1
         yield found
 
@@ -69,7 +71,8 @@ def test_what_was_not_seen_begins_anew(key):
     filter_ = KINDS[key](HEIGHT, WIDTH)
     dark = np.zeros((HEIGHT, WIDTH), np.float32)
     filter_.next_frame(*pictures(key, dark), surface)
-    found = filter_.next_frame(*pictures(key, picture), surface, surface.p + np.float32(9))
+    elsewhere = Reprojection(surface, surface, surface.p + np.float32(9))
+    found = filter_.next_frame(*pictures(key, picture), surface, elsewhere)
     # SIGMA's sparse taps turn from frame to frame.
     close = 0.15 if key.startswith("sigma") else 1e-6
     assert np.abs(found - alone(key, picture, surface)).max() < close
@@ -84,10 +87,7 @@ def test_a_sequence_is_the_same_again(key):
 def test_an_even_mean_first_and_a_fifth_later():
     """A constant picture that becomes another: the share of the new is 1/2, 1/3, 1/4, 1/5, 1/5 …"""
     svgf, surface = TemporalFilter(HEIGHT, WIDTH), plate_frame().surface
-    seen = [
-        svgf.next_frame(np.full((HEIGHT, WIDTH), value, np.float32), surface)[
-            HEIGHT // 2, WIDTH // 2
-        ]
-        for value in (1, 0, 0, 0, 0, 0)
-    ]
+    back, pictures_ = Reprojection(surface, surface), np.ones((6, HEIGHT, WIDTH), np.float32)
+    pictures_[1:] = 0
+    seen = [svgf.next_frame(one, surface, back)[HEIGHT // 2, WIDTH // 2] for one in pictures_]
     assert seen == pytest.approx([1, 1 / 2, 1 / 3, 1 / 4, 1 / 5, 4 / 25], abs=1e-3)

@@ -5,12 +5,7 @@ import pytest
 import trimesh
 from shapes import Y_UP, scene_of, sheet
 
-from neural_shadows.rendering.reprojection import (
-    history,
-    looked_up,
-    projected,
-    seen_before,
-)
+from neural_shadows.rendering.reprojection import Reprojection, looked_up, projected
 from neural_shadows.rendering.surface import see_surface
 from neural_shadows.scenes.cameras import Camera
 
@@ -35,7 +30,7 @@ def test_a_frames_own_points_project_to_their_pixels(scene):
 
 def test_points_are_found_where_they_were_and_hidden_ones_are_not(scene):
     before, now = (see_surface(scene, camera(shift), 120, 80) for shift in (0.0, 0.1))
-    accepted, places = seen_before(now, before)
+    accepted, places = Reprojection(now, before).seen
     assert 0.75 < accepted.mean() < 0.98
     # The world's x there is the point's own, but for the slope within a pixel.
     found = looked_up(before.image(before.p)[..., 0], places[:, accepted])
@@ -51,9 +46,9 @@ def test_points_are_found_where_they_were_and_hidden_ones_are_not(scene):
 def test_a_filter_keeps_its_own_side_s_history_along_an_edge(scene):
     """Bilinear where all four pixels show the surface, else of those that do."""
     before, now = (see_surface(scene, camera(shift), 120, 80) for shift in (0.0, 0.1))
-    accepted, places = seen_before(now, before)
+    accepted, places = Reprojection(now, before).seen
     images = before.image(before.p).transpose(2, 0, 1)
-    found, values = history(now, before, images)
+    found, values = Reprojection(now, before).history(images)
     assert (found >= accepted).all() and found.mean() > accepted.mean() + 0.02
     inside = accepted[found]
     assert np.allclose(values[0][inside], looked_up(images[0], places[:, accepted]), atol=1e-5)
@@ -61,7 +56,7 @@ def test_a_filter_keeps_its_own_side_s_history_along_an_edge(scene):
     assert np.abs(values - now.p[found].T).max() < 0.1
     # Ground that the cube hid is found by its rim alone, within a pixel of what was seen.
     before, now = (see_surface(scene, camera(shift), 480, 320) for shift in (0.0, 0.4))
-    found, _ = history(now, before, before.image(before.p).transpose(2, 0, 1))
+    found, _ = Reprojection(now, before).history(before.image(before.p).transpose(2, 0, 1))
     to_eye = (before.camera.eye - now.p).astype(np.float32)
     hidden = scene.tracer.blocked((now.p + 1e-3 * now.n_g).astype(np.float32), to_eye)
     assert hidden.sum() > 500 and found[hidden].mean() < 0.1
@@ -70,7 +65,7 @@ def test_a_filter_keeps_its_own_side_s_history_along_an_edge(scene):
 def test_a_moved_object_is_looked_up_where_it_was(scene):
     before = see_surface(scene, camera(), 240, 160)
     shifted = before.p + np.array([0.3, 0, 0], np.float32)
-    accepted, places = seen_before(before, before, was=before.p)
+    accepted, places = Reprojection(before, before, was=before.p).seen
     assert accepted.mean() > 0.7
     column, _ = places
     moved_column, *_ = projected(camera(), 240, 160, shifted)

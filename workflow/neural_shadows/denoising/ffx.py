@@ -12,6 +12,7 @@ from numba import njit
 from neural_shadows.denoising.decay import decayed
 from neural_shadows.denoising.history import History
 from neural_shadows.denoising.mixed_blocks import SIDE, Neighbourhoods
+from neural_shadows.rendering.reprojection import Reprojection
 from neural_shadows.rendering.surface import Surface
 
 # Standard deviations a visibility may differ. In print 1, of a variance that is larger at first: `_BOOST`
@@ -115,24 +116,24 @@ class TemporalFfx:
         self._history = History()
 
     def next_frame(
-        self, visibility: np.ndarray, surface: Surface, was: np.ndarray | None = None
+        self, visibility: np.ndarray, surface: Surface, back: Reprojection | None = None
     ) -> np.ndarray:
         """The next frame's picture, (H, W) float32.
 
         Args:
             visibility: (H, W) float32 in [0, 1].
-            was: (n, 3), where the surface's points were a frame ago; see `seen_before`.
+            back: to the frame before, None at first.
         """
         self._spatial.see(surface.depth_image(), surface.image(surface.n))
         mean, noise = self._spatial.neighbourhood(visibility)
         new = np.stack([visibility, visibility, *np.zeros_like([visibility] * 2)])
         new[3] = 1
         variance = (_BOOST - 1) * noise
-        pixels, past = self._history.at(surface, len(new), was)
+        pixels, past = self._history.at(len(new), back)
         values = (image.ravel()[pixels] for image in (visibility, mean, noise))
         new.reshape(len(new), -1)[:, pixels], variance.ravel()[pixels] = _added(past, *values)
         new[0], last = self._spatial.smooth(new[0], variance)
-        self._history.keep(surface, new)
+        self._history.keep(new)
         return last
 
 

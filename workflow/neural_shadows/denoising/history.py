@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from neural_shadows.rendering.reprojection import history
-from neural_shadows.rendering.surface import Surface
+from neural_shadows.rendering.reprojection import Reprojection
 
 
 class History:
@@ -11,25 +10,21 @@ class History:
 
     def __init__(self):
         self._images: np.ndarray | None = None
-        self._surface: Surface | None = None
 
-    def at(
-        self, surface: Surface, count: int, was: np.ndarray | None = None
-    ) -> tuple[np.ndarray, np.ndarray]:
+    def at(self, count: int, back: Reprojection | None) -> tuple[np.ndarray, np.ndarray]:
         """Find pixels seen in the previous frame, and its images there.
 
         Args:
-            surface: of the frame now. was: (n, 3), where its points were; see `seen_before`.
-            count: of the images.
+            count: of the images. back: to that frame; None where there is none.
 
         Returns:
             pixels (m,) int64, row · width + column, and values (count, m) float32.
         """
-        if self._images is None:
+        if self._images is None or back is None:
             return np.empty(0, np.int64), np.empty((count, 0), np.float32)
-        found, values = history(surface, self._surface, self._images, was)
-        return surface.pixel[found], values
+        found, values = back.history(self._images)
+        return back.surface.pixel[found], values
 
-    def keep(self, surface: Surface, images: np.ndarray) -> None:
+    def keep(self, images: np.ndarray) -> None:
         """Store a frame's images (count, H, W) float32."""
-        self._images, self._surface = images, surface
+        self._images = images

@@ -11,6 +11,7 @@ from scipy.ndimage import uniform_filter
 
 from neural_shadows.denoising.history import History
 from neural_shadows.denoising.mixed_blocks import SIDE, Neighbourhoods
+from neural_shadows.rendering.reprojection import Reprojection
 from neural_shadows.rendering.surface import Surface
 
 REACH = 0.7  # radius of the sparse taps, in shares of a penumbra's
@@ -141,17 +142,17 @@ class TemporalSigma:
         visibility: np.ndarray,
         penumbra: np.ndarray,
         surface: Surface,
-        was: np.ndarray | None = None,
+        back: Reprojection | None = None,
     ) -> np.ndarray:
         """The next frame's picture, (H, W) float32.
 
         Args:
             visibility, penumbra: see `SigmaFilter.smooth`.
-            was: (n, 3), where the surface's points were a frame ago; see `seen_before`.
+            back: to the frame before, None at first.
         """
         picture = self._spatial.single(visibility, penumbra, surface, self._frame)
         self._frame += 1
-        pixels, (past, frames) = self._history.at(surface, 2, was)
+        pixels, (past, frames) = self._history.at(2, back)
         mean, deviation = (image.ravel()[pixels] for image in _nearby(picture))
         clamped = np.clip(past, mean - _CLAMP * deviation, mean + _CLAMP * deviation)
         # Clamped history is of another shadow: its frames count as fewer.
@@ -160,7 +161,7 @@ class TemporalSigma:
         flat = new.reshape(2, -1)
         flat[0, pixels] = clamped + (flat[0, pixels] - clamped) / frames
         flat[1, pixels] = frames
-        self._history.keep(surface, new)
+        self._history.keep(new)
         return new[0].copy()
 
 

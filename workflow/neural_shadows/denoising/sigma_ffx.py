@@ -6,6 +6,7 @@ import numpy as np
 
 from neural_shadows.denoising.ffx import SIGMA, FfxFilter, TemporalFfx
 from neural_shadows.denoising.sigma import REACH, SigmaFilter
+from neural_shadows.rendering.reprojection import Reprojection
 from neural_shadows.rendering.surface import Surface
 
 
@@ -59,10 +60,10 @@ class TemporalSigmaFfx:
         visibility: np.ndarray,
         penumbra: np.ndarray,
         surface: Surface,
-        was: np.ndarray | None = None,
+        back: Reprojection | None = None,
     ) -> np.ndarray:
         """The next frame's picture, (H, W) float32; see `TemporalSigma.next_frame`."""
         # With taps turned from frame to frame, as in `TemporalSigma`, errors and flicker were the same to 0.4 %:
         # one and four rays, a moving camera and a moving light.
         wide = self._wide.single(visibility, penumbra, surface)
-        return self._fine.next_frame(wide, surface, was)
+        return self._fine.next_frame(wide, surface, back)

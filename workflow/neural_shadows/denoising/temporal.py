@@ -4,6 +4,7 @@ import numpy as np
 
 from neural_shadows.denoising.history import History
 from neural_shadows.denoising.svgf import SvgfFilter
+from neural_shadows.rendering.reprojection import Reprojection
 from neural_shadows.rendering.surface import Surface
 
 ALPHA = 0.2  # the least share of a new frame, of values and moments (Schied et al. 2017, 4.1)
@@ -25,31 +26,31 @@ class TemporalFilter:
         self._history = History()
 
     def next_frame(
-        self, visibility: np.ndarray, surface: Surface, was: np.ndarray | None = None
+        self, visibility: np.ndarray, surface: Surface, back: Reprojection | None = None
     ) -> np.ndarray:
         """The next frame's picture, (H, W) float32.
 
         Args:
             visibility: (H, W) float32 in [0, 1].
-            was: (n, 3), where the surface's points were a frame ago; see `seen_before`.
+            back: to the frame before, None at first.
         """
         new = np.stack([visibility, visibility, visibility * visibility, np.ones_like(visibility)])
-        self._add_history(new, surface, was)
+        self._add_history(new, back)
         picture, mean, square, frames = new
         self._spatial.see(surface.depth_image(), surface.image(surface.n))
         over_time = np.maximum(square - mean * mean, 0)
         over_pixels = self._spatial.variance(mean, square)
         variance = np.where(frames >= _ENOUGH, over_time, over_pixels)
         new[0], last = self._spatial.smooth(picture, variance)
-        self._history.keep(surface, new)
+        self._history.keep(new)
         return last
 
-    def _add_history(self, new: np.ndarray, surface: Surface, was: np.ndarray | None) -> None:
+    def _add_history(self, new: np.ndarray, back: Reprojection | None) -> None:
         """Mix the history of seen points into new (4, H, W).
 
         The first frames of a point are averaged evenly, as the authors' code does.
         """
-        pixels, (*old, frames) = self._history.at(surface, len(new), was)
+        pixels, (*old, frames) = self._history.at(len(new), back)
         frames = np.rint(frames) + 1
         share = np.maximum(np.float32(ALPHA), 1 / frames)
         flat = new.reshape(len(new), -1)

@@ -9,7 +9,7 @@ import numpy as np
 from neural_shadows.evaluation.answers import flicker_name
 from neural_shadows.evaluation.measured_frames import MeasuredFrame
 from neural_shadows.evaluation.method import Constants, Method
-from neural_shadows.evaluation.sequences import answer_sequence
+from neural_shadows.evaluation.sequences import answer_sequence, steps_of
 from neural_shadows.metrics.registry import measure
 from neural_shadows.rendering.reprojection import looked_up
 
@@ -30,14 +30,15 @@ def flicker(
     """
     changes: dict[str, list[np.ndarray]] = {"": [], "_reference": [], "_taa": []}
     errors = defaultdict(list)
-    images = answer_sequence(frames, method, constants)
-    before, last, _ = next(images)
-    averaged = last
+    images = answer_sequence(steps_of(frames), method, constants)
+    first, last = next(images)
+    before, averaged = first.now, last
     sums = {name: np.zeros(last.size, np.float32) for name in changes}
     advance()
     part, k = before.part, before.middle
     key = before.key(k) | {"frame": 0}
-    for now, visibility, (accepted, pixels_before) in images:
+    for step, visibility in images:
+        now, (accepted, pixels_before) = step.now, step.seen
         pixel, pixels_before = now.frame.surface.pixel[accepted], pixels_before[:, accepted]
         target = now.target[k]
         blended = visibility.copy()

@@ -4,7 +4,6 @@ import numpy as np
 
 from neural_shadows.evaluation.flicker import flicker as flicker
 from neural_shadows.evaluation.measured_frames import MeasuredFrame
-from neural_shadows.metrics.metric import Pixels
 from neural_shadows.metrics.registry import OfImages, image_metrics, measure
 
 LIGHT = "soft"
@@ -34,11 +33,8 @@ def image_errors(
 
     Image metrics see the target at invalid pixels.
     """
-    target, valid = frame.target, frame.valid
-    image = np.where(valid, visibility, target[radius])
-    hard = target[0] if frame.part.radii[0] == 0 else None
-    pixels = Pixels(valid, hard, frame.off_edges)
+    target = frame.target[radius]
     return {
-        **measure("of_visibility", LIGHT, visibility, target[radius], pixels),
-        **images(image, target[radius]),
+        **measure("of_visibility", LIGHT, visibility, target, frame.pixels),
+        **images(np.where(frame.valid, visibility, target), target),
     }

@@ -19,6 +19,7 @@ from neural_shadows.frames.draw_settings import light_map_of
 from neural_shadows.frames.frame_set import FrameSetPart, check_values
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.frames.soft_scene import SoftScene
+from neural_shadows.metrics.metric import Pixels
 from neural_shadows.rendering.surface import see_surface
 
 ERRORS = ("mse",)
@@ -76,7 +77,7 @@ class MeasuredFrame:
         )
         return SoftFrame(scene, surface, setting.centre, light_map, self.number, self.part.shape)
 
-    @property
+    @cached_property
     def target(self) -> np.ndarray:
         """The exact soft shadow of each radius, (radii, height, width) float32.
 
@@ -100,6 +101,12 @@ class MeasuredFrame:
         """Valid pixels off the geometry's edges, bool; None if unknown."""
         edges = self.part.edges
         return None if edges is None else self.valid & ~edges[self.number]
+
+    @cached_property
+    def pixels(self) -> Pixels:
+        """Its masks in metrics."""
+        hard = self.target[0] if self.part.radii[0] == 0 else None
+        return Pixels(self.valid, hard, self.off_edges)
 
     @property
     def judged(self) -> np.ndarray:

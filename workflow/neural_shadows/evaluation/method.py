@@ -12,6 +12,7 @@ if TYPE_CHECKING:  # the graph needs metadata alone
     from neural_shadows.frames.frame_set import FrameSetPart
     from neural_shadows.frames.soft_frame import SoftFrame
     from neural_shadows.rendering.gbuffer import GBuffer
+    from neural_shadows.rendering.reprojection import Reprojection
     from neural_shadows.scenes.scene import Scene
 
 Constants = Mapping[str, float]
@@ -54,7 +55,7 @@ class Method:
         null: a null predictor, which a network must beat.
         look: if not its family's.
         sequence: of the radius and the constants, if it has a history: a function of the next frame
-            of a sequence and its points' previous positions, visibilities (n,).
+            of a sequence and its reprojection to the one before, None at first, visibilities (n,).
         texel_floats: float32 numbers in a texel of its light map; 0 for none.
         held: of a frame, bytes in memory of the scene's data beside the triangles.
         of_radius: visibility depends on the light's radius.
@@ -86,7 +87,7 @@ class Method:
     package: str | None = None
     null: bool = False
     look: Look | None = None
-    sequence: "Callable[..., Callable[[SoftFrame, np.ndarray | None], np.ndarray]] | None" = None
+    sequence: "Callable[..., Callable[[SoftFrame, Reprojection | None], np.ndarray]] | None" = None
     texel_floats: int = 1
     held: "Callable[[SoftFrame], int] | None" = None
     of_radius: bool = True

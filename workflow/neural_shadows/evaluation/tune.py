@@ -66,7 +66,8 @@ def tune(
     if sequence:
         middle = by_radius[len(by_radius) // 2]["constants"]
         about["history"] = {"constants": middle}
-        in_sequence = [*kind.open_frames(replace(inputs, frames=[sequence]))]
+        frames_of_it = kind.open_frames(replace(inputs, frames=[sequence]))
+        in_sequence = [*sequences_module().steps_of(frames_of_it)]
         errors = partial(_sequence_errors, in_sequence, tuned, f"the history {title}")
         _search(tuned, [about["history"]], ["mse"], errors)
     searched = [("", best) for best in by_radius]
@@ -151,7 +152,7 @@ def _frame_errors(
 
 
 def _sequence_errors(
-    frames: Sequence[Any],
+    steps: Sequence[Any],
     method: Method,
     title: str,
     names: str,
@@ -159,10 +160,10 @@ def _sequence_errors(
 ) -> list[np.ndarray]:
     """Mean squared errors over a sequence, of one light, (settings, 1); see `_search`."""
     squared_error, errors = sequences_module().squared_error, []
-    with progress_bar(len(frames) * len(settings[0]), "frames", f"tune {names} {title}") as bar:
+    with progress_bar(len(steps) * len(settings[0]), "frames", f"tune {names} {title}") as bar:
         for constants in settings[0]:
-            errors.append(squared_error(frames, method, constants))
-            bar.update(len(frames))
+            errors.append(squared_error(steps, method, constants))
+            bar.update(len(steps))
     return [np.array(errors)[:, None]]
 
 

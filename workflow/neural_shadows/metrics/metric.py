@@ -2,11 +2,13 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
 
 Light = Literal["hard", "soft"]  # of a frame: without extent, or not
+EDGE_PIXELS = 3  # near an edge of the hard shadow, on each side of it
 ARROWS = {"low": " ↓", "high": " ↑", None: ""}
 
 
@@ -92,3 +94,24 @@ class Pixels:
     valid: np.ndarray
     hard: np.ndarray | None = None
     off_edges: np.ndarray | None = None
+
+    @cached_property
+    def near_edges(self) -> np.ndarray:
+        """Pixels near an edge of the hard shadow, bool; none if it is unknown.
+
+        An edge is between two valid neighbours of which one is lit and the other is not.
+        """
+        from scipy.ndimage import binary_dilation
+
+        valid = self.valid
+        if self.hard is None:
+            return np.zeros_like(valid)
+        lit = self.hard > 0.5
+        edge = np.zeros_like(lit)
+        across = (lit[1:] != lit[:-1]) & valid[1:] & valid[:-1]
+        edge[1:] |= across
+        edge[:-1] |= across
+        along = (lit[:, 1:] != lit[:, :-1]) & valid[:, 1:] & valid[:, :-1]
+        edge[:, 1:] |= along
+        edge[:, :-1] |= along
+        return binary_dilation(edge, np.ones((2 * EDGE_PIXELS - 1,) * 2, bool))

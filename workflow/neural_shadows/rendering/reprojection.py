@@ -1,5 +1,8 @@
 """Reprojection to the previous frame, for instability and temporal filters."""
 
+from dataclasses import dataclass
+from functools import cached_property
+
 import numpy as np
 from scipy.ndimage import map_coordinates
 
@@ -31,52 +34,59 @@ def on_image(camera, width: int, height: int, along_axes: np.ndarray) -> np.ndar
     return np.stack([column, row, forward])
 
 
-def seen_before(
-    surface: Surface, before: Surface, was: np.ndarray | None = None
-) -> tuple[np.ndarray, np.ndarray]:
-    """Find a frame's points in the previous frame.
-
-    A point counts if all four pixels of its look-up show a surface of its depth, to 2 %, and of its
-    normal, to 0.4 (Datta et al. 2022, 3.4; thresholds of Hu et al. 2025's code).
+@dataclass(frozen=True, eq=False)
+class Reprojection:
+    """Look-up of a frame's points in the frame before. Computed once, on first use.
 
     Args:
-        was: (n, 3), the points' previous positions, by default the current ones.
-
-    Returns:
-        accepted (n,) bool, and column and row in the frame before, (2, n).
+        surface, before: what the camera sees now, and saw then.
+        was: (n, 3), where the n points of `surface` were then; without it, where they are.
     """
-    points = surface.p if was is None else was
-    column, row, depth = projected(before.camera, before.width, before.height, points)
-    _, weights, same = _corners(surface, before, column, row, depth)
-    accepted = _inside(before, column, row, depth)
-    accepted &= (same | (weights < LEAST_WEIGHT)).all(axis=0)
-    return accepted, np.stack([column, row])
 
+    surface: Surface
+    before: Surface
+    was: np.ndarray | None = None
 
-def history(
-    surface: Surface, before: Surface, images: np.ndarray, was: np.ndarray | None = None
-) -> tuple[np.ndarray, np.ndarray]:
-    """Look up images of the previous frame where it shows a frame's points.
+    @property
+    def seen(self) -> tuple[np.ndarray, np.ndarray]:
+        """The points that were seen.
 
-    Bilinear over those of the four pixels that show the point's surface, see `seen_before`, as
-    temporal filters do it (Schied et al. 2017, 4.1): along an edge, where `seen_before` accepts
-    nothing, a filter keeps the history of its own side.
+        A point counts if all four pixels of its look-up show a surface of its depth, to 2 %, and of its
+        normal, to 0.4 (Datta et al. 2022, 3.4; thresholds of Hu et al. 2025's code).
 
-    Args:
-        images: (k, H, W) float32, of the previous frame. was: see `seen_before`.
+        Returns: accepted (n,) bool, and column and row in the frame before, (2, n).
+        """
+        return self._found[:2]
 
-    Returns:
-        found (n,) bool, and values of the points found, (k, m) float32.
-    """
-    points = surface.p if was is None else was
-    column, row, depth = projected(before.camera, before.width, before.height, points)
-    pixels, weights, same = _corners(surface, before, column, row, depth)
-    weights = np.where(same, weights, 0)
-    total = weights.sum(axis=0)
-    found = _inside(before, column, row, depth) & (total >= LEAST_HISTORY)
-    shares = weights[:, found] / total[found]
-    corners = images.reshape(len(images), -1)[:, pixels[:, found]]
-    return found, np.einsum("kcm,cm->km", corners, shares).astype(np.float32)
+    def history(self, images: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Images of the frame before, where it shows the points.
+
+        Bilinear over those of the four pixels that show the point's surface, see `seen`, as
+        temporal filters do it (Schied et al. 2017, 4.1): along an edge, where `seen` accepts
+        nothing, a filter keeps the history of its own side.
+
+        Args:
+            images: (k, H, W) float32, of the frame before.
+
+        Returns: found (n,) bool, and values of the points found, (k, m) float32.
+        """
+        found, shares, pixels = self._found[2:]
+        corners = images.reshape(len(images), -1)[:, pixels]
+        return found, np.einsum("kcm,cm->km", corners, shares).astype(np.float32)
+
+    @cached_property
+    def _found(self) -> tuple[np.ndarray, ...]:
+        """`seen`; and for `history` the points found, and their pixels' shares and numbers, (4, m)."""
+        before, points = self.before, self.surface.p if self.was is None else self.was
+        column, row, depth = projected(before.camera, before.width, before.height, points)
+        pixels, weights, same = _corners(self.surface, before, column, row, depth)
+        inside = _inside(before, column, row, depth)
+        accepted = inside & (same | (weights < LEAST_WEIGHT)).all(axis=0)
+        weights = np.where(same, weights, 0)
+        total = weights.sum(axis=0)
+        found = inside & (total >= LEAST_HISTORY)
+        shares = weights[:, found] / total[found]
+        return accepted, np.stack([column, row]), found, shares, pixels[:, found]
 
 
 def _inside(before: Surface, column: np.ndarray, row: np.ndarray, depth: np.ndarray) -> np.ndarray:

@@ -18,6 +18,7 @@ from neural_shadows.frames.ray_tracing import (
     ray_traced_penumbrae,
     traced_images,
 )
+from neural_shadows.rendering.reprojection import Reprojection
 
 # At least how many times less the squared error of two rays is.
 FALLS = {"svgf": 6, "ffx": 12, "sigma": 12, "sigma_ffx": 12, "oidn_fast": 15, "oidn": 15}
@@ -62,8 +63,8 @@ SEQUENCES = [key for key, denoiser in BY_KEY.items() if denoiser.temporal]
 @pytest.mark.parametrize("key", SEQUENCES)
 def test_a_sequence_gets_better(frame, key):
     frames = (replace(frame, number=k) for k in range(12))
-    step = method(key, 1).sequence(RADIUS)
-    found = [step(one, None) for one in frames]
+    step, at_rest = method(key, 1).sequence(RADIUS), Reprojection(frame.surface, frame.surface)
+    found = [step(one, at_rest) for one in frames]
     errors = [error(one, plate_truth()) for one in found]
     assert np.abs(found[0] - method(key, 1).answer(frame, RADIUS)).max() < 1e-6
     # Of the SIGMA-like filter most is its blur, which frames do not lessen.

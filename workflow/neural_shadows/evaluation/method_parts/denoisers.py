@@ -15,6 +15,7 @@ from neural_shadows.denoising.svgf import SvgfTrials
 from neural_shadows.denoising.temporal import TemporalFilter
 from neural_shadows.frames.ray_tracing import ray_traced, ray_traced_penumbrae
 from neural_shadows.frames.soft_frame import SoftFrame
+from neural_shadows.rendering.reprojection import Reprojection
 from neural_shadows.rendering.surface import Surface
 
 
@@ -27,7 +28,7 @@ class Denoiser:
             picture. The inputs are the visibility by rays and, if `distances`, the penumbrae's radii of
             `ray_traced_penumbrae`; lit, and −1, where there is no surface.
         temporal: of a height, a width and the constants, a filter of consecutive frames, if it
-            has a history: `next_frame` of the pictures, the surface, and where its points were.
+            has a history: `next_frame` of the pictures, the surface, and its reprojection.
     """
 
     single: Callable[..., np.ndarray]
@@ -71,26 +72,26 @@ def denoised(
 
 def sequence_denoiser(
     radius: float, *, samples: int, denoiser: str, **constants: float
-) -> Callable[[SoftFrame, np.ndarray | None], np.ndarray]:
+) -> Callable[[SoftFrame, Reprojection | None], np.ndarray]:
     """Rays of consecutive frames, then a denoiser's temporal filter.
 
     Args:
         radius, samples, denoiser: see `denoised`.
 
     Returns:
-        Of the next frame, of a larger number, and its points' previous positions (n, 3), None if
-        nothing moved: visibility (n,) float32.
+        Of the next frame, of a larger number, and its reprojection to the one before, None at first:
+        visibility (n,) float32.
     """
     kind = BY_KEY[denoiser]
     temporal = cache(partial(kind.temporal, **constants))
 
-    def step(frame: SoftFrame, was: np.ndarray | None) -> np.ndarray:
+    def step(frame: SoftFrame, back: Reprojection | None) -> np.ndarray:
         if radius == 0:
             return ray_traced(frame, radius, samples=samples)
         surface = frame.surface
         pictures = kind.pictures(frame, radius, samples)
         filter_ = temporal(surface.height, surface.width)
-        return filter_.next_frame(*pictures, surface, was).ravel()[surface.pixel]
+        return filter_.next_frame(*pictures, surface, back).ravel()[surface.pixel]
 
     return step
 

@@ -7,7 +7,6 @@ import numpy as np
 from neural_shadows.metrics.metric import Metric, Pixels
 
 UMBRA, LIT = 0.02, 0.98  # of the target: below and above it there is no penumbra
-EDGE_PIXELS = 3  # on each side of an edge of the hard target
 
 _SQUARED = {"unit": "× 10⁻⁴", "factor": 1e4, "digits": 1, "lights": ("soft",)}
 _SHARE = {"unit": "%", "factor": 100, "digits": 2}
@@ -68,34 +67,16 @@ def squared_errors(visibility: np.ndarray, target: np.ndarray, pixels: Pixels) -
         visibility, target: float32 in [0, 1], of the shape of `pixels`.
     """
     square = np.subtract(visibility, target, dtype=np.float64) ** 2
-    valid, hard, off_edges = pixels.valid, pixels.hard, pixels.off_edges
+    valid, off_edges = pixels.valid, pixels.off_edges
     parts = {
         "mse": valid,
         "mse_umbra": valid & (target < UMBRA),
         "mse_penumbra": valid & (target >= UMBRA) & (target <= LIT),
         "mse_lit": valid & (target > LIT),
-        "mse_edge": valid & (False if hard is None else _near_edges(hard, valid)),
+        "mse_edge": valid & pixels.near_edges,
         **({} if off_edges is None else {"mse_off_edges": off_edges}),
     }
     return {
         name: float(square[part].mean()) if part.any() else float("nan")
         for name, part in parts.items()
     }
-
-
-def _near_edges(hard: np.ndarray, valid: np.ndarray) -> np.ndarray:
-    """Pixels near an edge of the hard shadow, (H, W) bool.
-
-    Between two valid neighbours of which one is lit and the other is not.
-    """
-    from scipy.ndimage import binary_dilation
-
-    lit = hard > 0.5
-    edge = np.zeros_like(lit)
-    across = (lit[1:] != lit[:-1]) & valid[1:] & valid[:-1]
-    edge[1:] |= across
-    edge[:-1] |= across
-    along = (lit[:, 1:] != lit[:, :-1]) & valid[:, 1:] & valid[:, :-1]
-    edge[:, 1:] |= along
-    edge[:, :-1] |= along
-    return binary_dilation(edge, np.ones((2 * EDGE_PIXELS - 1,) * 2, bool))
