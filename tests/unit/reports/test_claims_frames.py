@@ -87,6 +87,13 @@ def claim(pair, **changes):
             "0.1 m of 1 ray ",
         ),
         (EQUAL_TIME[::-1], {"own_ms": OWN_MS | {"pcss": [1.0] * 3}}, verdicts.SUPPORTED, ""),
+        # Four rays lose in less time, and no more are timed.
+        (
+            ("rt_4_svgf", "rays_of_equal_time"),
+            {"own_ms": OWN_MS | {"rt_4_svgf": [90.0] * 3}},
+            verdicts.TOO_SMALL,
+            "against 4 rays",
+        ),
         (EQUAL_TIME, {"own_ms": None}, verdicts.TOO_SMALL, "PCSS at 0.1 m: the table has no times"),
     ],
 )

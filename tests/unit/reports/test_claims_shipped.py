@@ -66,18 +66,15 @@ def test_a_claim_has_the_verdict_that_its_data_carry(name, contrary, verdict):
     assert outcome["verdict"] == verdict, outcome["reason"]
 
 
-def test_the_thesis_s_tables_carry_its_text_but_for_three_sentences():
-    """By LPIPS the dragon's is as a map of 386², nearer to 512² than to 256² by less than trainings differ."""
+def test_the_thesis_s_tables_carry_its_text_but_on_widths():
     verdict_of = {
         name: judge(claim, measured())["verdict"]
         for name, claim in of_the_thesis("printed").items()
     }
     assert {name: verdict for name, verdict in verdict_of.items() if verdict != "supported"} == {
         "printed_wider_is_worse_on_the_landscape": "contradicted",
-        "printed_dragon_comparable_to_512": "undecided",
-        "printed_fence_comparable_to_512": "contradicted",
     }
-    assert len(verdict_of) > 5
+    assert len(verdict_of) == 5
 
 
 @functools.cache

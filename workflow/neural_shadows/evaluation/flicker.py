@@ -31,8 +31,8 @@ def flicker(
     changes: dict[str, list[np.ndarray]] = {"": [], "_reference": [], "_taa": []}
     errors = defaultdict(list)
     images = answer_sequence(steps_of(frames), method, constants)
-    first, last = next(images)
-    before, averaged = first.now, last
+    step, last = next(images)
+    before, averaged = step.now, last
     sums = {name: np.zeros(last.size, np.float32) for name in changes}
     advance()
     part, k = before.part, before.middle

@@ -86,7 +86,7 @@ class Reprojection:
         total = weights.sum(axis=0)
         found = inside & (total >= LEAST_HISTORY)
         shares = weights[:, found] / total[found]
-        return accepted, np.stack([column, row]), found, shares, pixels[:, found]
+        return accepted, np.stack([column, row]), found, shares, pixels[:, found].astype(np.int32)
 
 
 def _inside(before: Surface, column: np.ndarray, row: np.ndarray, depth: np.ndarray) -> np.ndarray:

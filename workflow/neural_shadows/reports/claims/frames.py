@@ -192,10 +192,9 @@ def _in_equal_time(
 ) -> Comparison:
     """Compare a method with rays of its time, by the two numbers of rays about it.
 
-    These are a quarter to a half apart, and times of a few percent differ from run to run. So what
-    supports the claim must hold with the number that is worse for it, and what is against it with
-    the better one: rays that are to win with those that take no longer, rays that are to lose with the next
-    larger number.
+    None takes exactly that, and times differ by some percent from run to run. So what supports the
+    claim must hold with the number that is worse for it, and what is against it with the better one:
+    rays that are to win with those that take no longer, rays that are to lose with the next larger number.
     """
     rays = next(method for method in pair if method in EQUAL_TIME)
     (other,) = set(pair) - {rays}
@@ -212,9 +211,16 @@ def _in_equal_time(
         text = f"{label} at {table.light(radius)}"
         return Comparison(metric, label, text, untested="the table has no times of it and of rays")
     if better is None or worse is not None and worse.supports:
-        return replace(worse, against=1.0)
-    beside = f"; beside it {worse.text}: {worse.number or worse.untested}" if worse else ""
-    return replace(better, supports=False, remark=f"{better.remark}{beside}")
+        outcome = replace(worse, against=1.0)
+    else:
+        beside = f"; beside it {worse.text}: {worse.number or worse.untested}" if worse else ""
+        outcome = replace(better, supports=False, remark=f"{better.remark}{beside}")
+    if None in by_number and not outcome.supports and outcome.against == 1:
+        missing = ("fewer", "more")[by_number.index(None)]
+        return outcome.without(
+            f"{label} takes {limit:.0f} ms, for which the table has no {missing} rays"
+        )
+    return outcome
 
 
 def _comparison(

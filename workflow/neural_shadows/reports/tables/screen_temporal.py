@@ -56,8 +56,8 @@ def table(soft: TrainedFrames) -> Table:
         f"Sequences have a {lights[len(lights) // 2]}. TAA: each frame averaged with the one before, "
         f"at points seen in both. What has a history begins with {RUN_IN} frames at rest in the first "
         "view. Edges: within 3 pixels of a point light's shadow edges, in test frames, of all lights. Edge "
-        "width: of a point light's edges alone, which is what sharpness is; the area with visibilities of 10 to "
-        "90 %, × 1.25, over the edges' length.",
+        "width: the area that a point light gives visibilities of 10 to 90 %, × 1.25, over the length of the exact "
+        "edges. Grey counts wherever it is, and a missing shadow has no width.",
         *soft.notes(),
     ]
     return Table(whole, columns, notes)
