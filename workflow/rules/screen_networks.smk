@@ -22,8 +22,9 @@ rule profile_screen_network:
         network=setting("networks/{network}"),
         profile=SETTINGS["screen_profiles"],
         device=COMPUTE["device"],
+        formats=of(tables.profiled_formats),
     message:
-        "Timing {wildcards.network} level by level"
+        "Timing {wildcards.network}"
     script:
         "../neural_shadows/evaluation/profile_screen_network.py"
 

@@ -11,6 +11,7 @@ from built_networks import make_screen_network
 
 from neural_shadows.evaluation import profile_screen_network as stage
 from neural_shadows.networks.settings.networks import screen_network
+from neural_shadows.reports.data.screen_profiles import not_timed
 
 KERNELS = {"form": "kernels", "widths": [4, 8], "features": ["cosine", "base_msm"], "filters": 2}
 FORMS = [
@@ -23,12 +24,13 @@ FORMS = [
 ]
 
 
-def profiled(folder: Path, network: dict[str, Any]) -> dict[str, Any]:
+def profiled(folder: Path, network: dict[str, Any], **changes: Any) -> dict[str, Any]:
     """What the stage writes of a network in a frame of 16 × 8 pixels."""
     path = folder / "profile.json"
     profile = {"width": 16, "height": 8, "repeats": 3, "product_size": 10}
     settings = screen_network(network)
-    stage.profile_screen_network(path, network=settings, profile=profile, device="cpu", threads=1)
+    how = {"network": settings, "profile": profile, "device": "cpu", "threads": 1}
+    stage.profile_screen_network(path, **how | changes)
     return json.loads(path.read_text())
 
 
@@ -58,3 +60,17 @@ def test_a_format_that_the_processor_lacks_is_not_computed_in(tmp_path, monkeypa
     found = profiled(tmp_path, {"features": ["ratio", "n"]} | FORMS[0])
     assert [run["precision"] for run in found["runs"]] == ["float32"]
     assert found["product_size"] == 10
+
+
+@pytest.mark.parametrize("native", [True, False])
+def test_of_what_tables_show_whole_frames_in_few_formats_alone_are_timed(
+    tmp_path, monkeypatch, native
+):
+    """On all threads; in float32 where no asked one is native, so that the table has a time."""
+    monkeypatch.setattr(stage, "is_native", lambda dtype, device: native or dtype == torch.float32)
+    network = {"features": ["ratio", "n"]} | FORMS[1]
+    found = profiled(tmp_path, network, threads=2, formats=["bfloat16"])
+    (run,) = found["runs"]
+    assert (run["threads"], run["precision"]) == (2, "bfloat16" if native else "float32")
+    assert not run["parts"] and run["whole_ms"] > 0
+    assert (" Not timed: bfloat16" in not_timed(found)) != native

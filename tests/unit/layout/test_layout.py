@@ -218,6 +218,14 @@ def test_steps_are_measured_in_their_number_formats(desk):
     assert frame_methods.precision(desk, "nsm_trimmed") == "auto"
 
 
+def test_networks_are_timed_in_the_formats_that_tables_show(desk):
+    """And level by level, in all formats, where one shows levels, or if none names them."""
+    formats = {name: tables.profiled_formats(desk, name) for name in ("original", "kpnsm")}
+    assert formats == {"original": ["float32"], "kpnsm": ["bfloat16"]}
+    assert tables.profiled_formats(desk, "trimmed") is None
+    assert tables.profiled_formats(desk, "kpnsm_pcf") is None
+
+
 def test_a_network_for_each_scene_is_by_scene(desk):
     methods = ("kpnsm_nsm_single", "kpnsm_nsm_joint", "pcss")
     assert [frame_methods.by_scene(desk, one) for one in methods] == [True, False, False]

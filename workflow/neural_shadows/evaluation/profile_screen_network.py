@@ -1,7 +1,7 @@
 """Stage: times of a screen-space network by level and part. As in Datta et al. 2022, S3."""
 
 from collections import defaultdict
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -37,6 +37,7 @@ def profile_screen_network(
     profile: Mapping[str, int],
     device: str,
     threads: int,
+    formats: Sequence[str] | None = None,
 ) -> None:
     """Time an untrained network on one frame. Its times do not depend on its weights, while logits of
     kernels are small (see `half_kernel_loops`), as those of trained networks were.
@@ -50,6 +51,7 @@ def profile_screen_network(
             `storage` of each; `runs`, in float32 and bfloat16 (see `is_native`), on one thread, on
             `threads`, and on a GPU if there is one: `whole_ms`, `parts` (`level`, `part`, `ms`), and
             `product_macs`, multiply-adds a second of a product of square matrices.
+        formats: time whole frames in these alone, on `threads` or the GPU; in float32 where that has none.
         profile: `width`, `height` (pixels), `repeats`, and `product_size`, rows and columns of the
             matrices whose product is the rate to reach.
 
@@ -59,16 +61,19 @@ def profile_screen_network(
     chosen = choose_device(device)
     devices = [(torch.device("cpu"), count) for count in sorted({1, threads})]
     devices += [(chosen, threads)] * (chosen.type == "cuda")
-    planned = [(*on, dtype) for on in devices for dtype in PRECISIONS if is_native(dtype, on[0])]
+    if formats:
+        devices = devices[-1:]
+    asked = [dtype for dtype in PRECISIONS if not formats or _name(dtype) in formats]
+    planned = [(*on, dtype) for on in devices for dtype in asked if is_native(dtype, on[0])]
     runs = []
     with progress_bar(len(planned), "runs", "profile") as bar:
-        for on, count, precision in planned:
+        for on, count, precision in planned or [(*devices[-1], torch.float32)]:
             torch.set_num_threads(count)
             timed = make_screen_network(network).for_inference()
             timed = timed.to(on, precision, memory_format=torch.channels_last)
-            times = _timed(timed, profile)
-            name = str(precision).removeprefix("torch.")
-            runs.append({"device": on.type, "threads": count, "precision": name} | times)
+            times = _timed(timed, profile, by_part=not formats)
+            run = {"device": on.type, "threads": count, "precision": _name(precision)}
+            runs.append(run | times)
             bar.update()
     write_json(
         profile_json,
@@ -76,6 +81,7 @@ def profile_screen_network(
             "network": network.model_dump(),
             **profile,
             "warm_up": WARM_UP,
+            "formats": [*map(_name, asked)],
             "levels": _counts(network),
             "runs": runs,
             **describe_origin(),
@@ -90,7 +96,11 @@ def _counts(network: Settings) -> list[dict[str, float]]:
     return [{"level": k} | {name: each[k] for name, each in counts.items()} for k in levels]
 
 
-def _timed(network: ScreenNetwork, profile: Mapping[str, int]) -> dict[str, Any]:
+def _name(dtype: torch.dtype) -> str:
+    return str(dtype).removeprefix("torch.")
+
+
+def _timed(network: ScreenNetwork, profile: Mapping[str, int], *, by_part: bool) -> dict[str, Any]:
     weight = next(network.parameters())
     like = {"device": weight.device, "dtype": weight.dtype}
     channels = channels_of(network.features)
@@ -115,8 +125,9 @@ def _timed(network: ScreenNetwork, profile: Mapping[str, int]) -> dict[str, Any]
                 break
             measure("whole", lambda: network.in_bands(x))
             measure("product", lambda: square @ square)
-            with _parts_timed(network, parts, clock):
-                network(x)
+            if by_part:
+                with _parts_timed(network, parts, clock):
+                    network(x)
     median = {name: float(np.median(each[WARM_UP:])) for name, each in (times | parts).items()}
     return {
         "whole_ms": 1000 * median["whole"],

@@ -127,6 +127,15 @@ def constants(layout: Layout, table: str) -> list[str]:
     return list(dict.fromkeys(paths))
 
 
+def profiled_formats(layout: Layout, network: str) -> list[str] | None:
+    """Number formats in which tables show a network's whole frames; None where one shows its levels."""
+    tables = layout.settings["tables"].values()
+    steps = (step for table in tables for step in table.get("steps", {}).values())
+    formats = unique(step["precision"] for step in steps if step["network"] == network)
+    by_level = any(table.get("network") == network for table in tables)
+    return None if by_level or not formats else formats
+
+
 def widths(layout: Layout, frame_set: str) -> list[str]:
     """File of penumbra widths; none without targets."""
     engine = layout.frames(frame_set).get("engine")

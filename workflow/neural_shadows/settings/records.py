@@ -256,6 +256,7 @@ class Profile(TypedDict, total=False):
     warm_up: int
     product_size: int
     levels: list[dict[str, Any]]
+    formats: list[str]  # asked for
     runs: list[ProfileRun]
     machine: dict[str, Any]
 

@@ -35,6 +35,7 @@ def profile(folder: Path, width=2048, height=1024) -> Path:
     ]
     levels = [{"level": k} | {name: each[k] for name, each in counts.items()} for k in range(5)]
     about = {"width": width, "height": height, "repeats": 10, "warm_up": 3, "product_size": 2048}
+    about |= {"formats": ["float32", "bfloat16"]}
     record = about | {"levels": levels, "runs": runs, "machine": MACHINE}
     return write_record(folder / "profile.json", record)
 

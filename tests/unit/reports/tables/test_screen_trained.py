@@ -130,6 +130,7 @@ def steps(made, tmp_path):
         runs = [run | {"precision": name, "whole_ms": ms} for name, ms in milliseconds.items()]
         profile = {"width": 2048, "height": 1024, "runs": runs, "machine": {"cpu": "a CPU"}}
         profile |= {"repeats": 10, "warm_up": 3, "product_size": 2048}
+        profile |= {"formats": ["float32", "bfloat16"]}
         profile |= {"levels": [{"weights": 2**18, "macs": 1e4}]}
         step = {"network": "trimmed", "experiment": "five"}
         names = {"trimmed": "float32", "trimmed_half": "bfloat16"}

@@ -12,7 +12,7 @@ from typing import Any
 
 from neural_shadows.evaluation.registry import is_network, method_of, unbiased
 from neural_shadows.frames.uses import RUN_IN
-from neural_shadows.layout import evaluations, frame_methods, frame_sets
+from neural_shadows.layout import evaluations, frame_methods, frame_sets, tables
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import HELD_OUT
 from neural_shadows.networks.screen_space.screen_forms import layers_of
@@ -321,8 +321,11 @@ def profile_screen_network(layout: Layout, network: str) -> Work:
     product = profile["product_size"] ** 3 / 1e9
     # A minute at most, of five repetitions at least: here at 20 · 10⁹ multiply-adds a second.
     repeats = max(5.0, min(profile["repeats"] + 2, 60 * 20 / (2 * frame + product)))
-    # Whole and by part, on one thread and on all.
-    return Work(START, products=2 * repeats * product, convolutions=4 * repeats * frame)
+    # On one thread and on all, whole and by part; or on all, in the formats that tables show.
+    formats = tables.profiled_formats(layout, network)
+    runs, passes = (len(formats), 1) if formats else (2, 2)
+    convolutions = runs * passes * repeats * frame
+    return Work(START, products=runs * repeats * product, convolutions=convolutions)
 
 
 # All others take about as long whatever the configuration, their starts among it: seconds by rule.

@@ -4,7 +4,6 @@ from functools import partial
 
 import pandas as pd
 
-from neural_shadows.evaluation.registry import FORMATS
 from neural_shadows.reports.data.digits import short
 from neural_shadows.reports.data.phrases import TEXTS
 from neural_shadows.reports.data.published import printed_size
@@ -65,7 +64,7 @@ def not_timed(profile: Profile) -> str:
     lacking = [
         f"{precision} on the {'GPU' if device == 'cuda' else 'CPU'}"
         for device in devices
-        for precision in FORMATS
+        for precision in profile["formats"]
         if (device, precision) not in timed
     ]
     if not lacking:
