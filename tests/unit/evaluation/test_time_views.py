@@ -30,6 +30,9 @@ def test_frame_times(tmp_path, monkeypatch):
     monkeypatch.setattr(stage.time, "perf_counter", lambda: clock[0])
     slow(stage, "render_gbuffer", 1)
     slow(ShadowNetwork, "depths", 2)
+    opened = []
+    whole = stage.timed_network
+    monkeypatch.setattr(stage, "timed_network", lambda *net: opened.append(net) or whole(*net))
     slow(stage, "shade", 4)
     slow(rasterise, "rasterised_heights", 8)
     slow(GBuffer, "visibility", 16)
@@ -52,6 +55,6 @@ def test_frame_times(tmp_path, monkeypatch):
     resident = [values["resident_bytes"] for values in times["methods"].values()]
     assert resident == [None, None, 4 * 32**2, 2 * 32**2, weights, weights]
     assert 0 < times["sphere_rays"] <= 120 * 80
-    assert list(times["rays_per_second"]) == methods[4:]
+    assert list(times["rays_per_second"]) == methods[4:] and len(opened) == 1
     for rates in times["rays_per_second"].values():
         assert np.median(rates) == times["sphere_rays"] / 18 and len(rates) == 5

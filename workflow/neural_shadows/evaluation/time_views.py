@@ -82,7 +82,8 @@ def times(
 
     Args:
         inputs: the scene's mesh and settings, weights of networks, device and precision.
-        methods: the experiment of each, or None. A depth bias, one addition, is left out.
+        methods: the experiment of each, or None. A depth bias, one addition, is left out: with and
+            without it a network is timed once.
         views: `view_sets`, `seed`, `least_shadow` of the evaluation's frames; they have another size.
 
     Returns: of each method `ms` of whole frames, `own_ms` without primary visibility and shading, and
@@ -94,12 +95,11 @@ def times(
     opened = open_scene(*inputs.meshes, **inputs.scene)
     chosen = choose_device(inputs.device)
     files = {path.parent.name: path for path in inputs.weights}
-    networks = [*filter(is_network, methods)]
     timed = {
         method: timed_network(*open_network(files[name], inputs.device, 1, inputs.precision))
         if is_network(method)
-        else timed_classic(unbiased(method), opened)
-        for method, name in methods.items()
+        else timed_classic(method, opened)
+        for method, name in {unbiased(key): name for key, name in methods.items()}.items()
     }
 
     width, height, repeats = (frame_times[key] for key in ("width", "height", "repeats"))
@@ -138,14 +138,17 @@ def times(
         "precision": str(choose_dtype(inputs.precision, chosen)).removeprefix("torch."),
         "sphere_rays": float(np.median(rays)),  # a network's
         "methods": {
-            name: {
+            key: {
                 "ms": [1000 * seconds for seconds in whole[name][WARM_UP:]],
                 "own_ms": [1000 * seconds for seconds in own[name][WARM_UP:]],
-                "device": method.device,
-                "resident_bytes": method.resident_bytes,
+                "device": timed[name].device,
+                "resident_bytes": timed[name].resident_bytes,
             }
-            for name, method in timed.items()
+            for key, name in zip(methods, map(unbiased, methods))
         },
         # of a network's own time, by frame
-        "rays_per_second": {name: (rays / own[name][WARM_UP:]).tolist() for name in networks},
+        "rays_per_second": {
+            key: (rays / own[unbiased(key)][WARM_UP:]).tolist()
+            for key in filter(is_network, methods)
+        },
     }

@@ -308,8 +308,9 @@ def time_methods(layout: Layout, table: str, group: str) -> Work:
         return sum((_answers(layout, method, answers) for method in methods), work)
     times = layout.settings["frame_times"]
     pixels = (times["repeats"] + 2) * times["width"] * times["height"] / 1e6
-    work = Work(START, 0.13 * pixels * len(methods))
-    for experiment in filter(None, methods.values()):
+    timed = {unbiased(key): experiment for key, experiment in methods.items()}
+    work = Work(START, 0.13 * pixels * len(timed))
+    for experiment in filter(None, timed.values()):
         work += _query(layout, experiment, pixels, 0.35)
     return work
 
