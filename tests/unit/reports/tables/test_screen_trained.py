@@ -188,8 +188,8 @@ def test_flicker_by_what_moves(made):
         }.items()
     ]
     rows.append({"metric": "mse_edge", "value": 0.5})
-    # Of the point light, the first of two.
-    rows += [{"metric": "width", "radius": k, "value": width} for k, width in enumerate((3, 30))]
+    widths = enumerate((3, np.nan))  # of the point light, the first of two
+    rows += [{"metric": "edge_width", "radius": k, "value": width} for k, width in widths]
     table, text = made(screen_temporal, {"five": rows}, labels={"five": "Five"})
     assert table["edge_width"].tolist() == pytest.approx([3, np.nan], nan_ok=True)
     assert table["label"].tolist() == ["Five", "Five + TAA"]

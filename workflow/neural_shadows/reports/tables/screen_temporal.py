@@ -56,8 +56,8 @@ def table(soft: TrainedFrames) -> Table:
         f"Sequences have a {lights[len(lights) // 2]}. TAA: each frame averaged with the one before, "
         f"at points seen in both. What has a history begins with {RUN_IN} frames at rest in the first "
         "view. Edges: within 3 pixels of a point light's shadow edges, in test frames, of all lights. Edge "
-        "width: the area that a point light gives visibilities of 10 to 90 %, × 1.25, over the length of the exact "
-        "edges. Grey counts wherever it is, and a missing shadow has no width.",
+        "width: how sharp a point light's edges are; the area with visibilities of 10 to 90 % near them, × 1.25, over "
+        "their length, where the picture has an edge, too; about 8 at most.",
         *soft.notes(),
     ]
     return Table(whole, columns, notes)
@@ -73,7 +73,7 @@ def temporal_table(soft: TrainedFrames) -> pd.DataFrame:
     `mse_sequence_off_edges`; of test frames, NaN with TAA, `mse_edge`, and of a point light, NaN without
     one, `edge_width` and `edge_width_reference`, pixels.
     """
-    rows, point = [], next((k for k, radius in enumerate(soft.radii) if not radius), None)
+    rows = []
     methods = [(method, label, None) for method, label in soft.labels.items()]
     nulls = [(null, label, null) for null, label in soft.nulls.items()]
     for method, label, null in [*methods, *nulls]:
@@ -89,9 +89,7 @@ def temporal_table(soft: TrainedFrames) -> pd.DataFrame:
                 row[f"mse_sequence{ending}"] = _mean(own, measured)
             frames = own[:0] if taa else own
             row["mse_edge"] = _mean(frames, "mse_edge")
-            under_a_point = frames[frames["radius"] == point]
-            for ending in ("", "_reference"):
-                row[f"edge_width{ending}"] = _mean(under_a_point, f"width{ending}")
+            row |= {name: _mean(frames, name) for name in ("edge_width", "edge_width_reference")}
             rows.append(row)
     return pd.DataFrame(rows)
 
