@@ -19,7 +19,9 @@ def test_a_blurred_edge_is_as_wide_as_its_blur():
     """Of a Gaussian from 10 to 90 %, over 0.8: 3.2 standard deviations."""
     assert edge_width(HARD, PIXELS) == 0
     assert edge_width(gaussian_filter(HARD, 1.0), PIXELS) == pytest.approx(3.2, rel=0.1)
-    assert edge_width(gaussian_filter(HARD, 6.0), PIXELS) == pytest.approx(8.4, rel=0.02)  # the band
+    assert edge_width(gaussian_filter(HARD, 6.0), PIXELS) == pytest.approx(
+        8.4, rel=0.02
+    )  # the band
 
 
 def test_what_is_missing_or_elsewhere_is_not_sharp():
