@@ -35,7 +35,7 @@ class Step:
     def frames(self) -> list[SoftFrame]:
         """The frame, by its number in the sequence. Before the first, `RUN_IN` times the same at rest.
 
-        They keep their rays, which take three quarters of a search's time.
+        They keep their rays: with these and `back` four settings took 0.31 to 0.54 of their time without.
         """
         frame = self.now.frame
         at_rest = range(RUN_IN if self.before is None else 0)

@@ -240,8 +240,8 @@ WORDS |= {
 COUNTED = {"cone": 0.3, "field": 0.7, "pcf": 0.02}
 OTHER = 0.05
 SHARED = 3.7  # settings of the SVGF-like filter share their passes: 7.5 s in place of 28 s a frame
-# Time of a setting of a history's search over that of all alone: 0.31 to 0.54, of four settings.
-AFTER_THE_FIRST = 0.45
+# Settings of a history share rays and look-ups: four took 0.31 to 0.54 of their time without that.
+SHARED_BY_A_HISTORY = 0.45
 
 
 def _answers(layout: Layout, method: str, pixels: float) -> Work:
@@ -279,8 +279,7 @@ def tune(layout: Layout, frame_set: str, group: str, method: str) -> Work:
     answers = tried * pixels * _lights(layout, frame_set)
     if frame_methods.has_history(method) and (length := layout.frames(frame_set)["sequence"]):
         of_history = math.prod(counts) if tuned.joint else sum(counts)
-        # Settings after the first share its rays and look-ups.
-        answers += of_history * AFTER_THE_FIRST * (RUN_IN + length) * _size(layout, frame_set)
+        answers += of_history * SHARED_BY_A_HISTORY * (RUN_IN + length) * _size(layout, frame_set)
     return Work(LIGHT_START, 5.0 * pixels) + _answers(layout, method, answers)
 
 
