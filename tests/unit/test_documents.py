@@ -92,3 +92,15 @@ def test_a_page_is_small_and_its_links_lead_somewhere(page):
 
 def test_the_readme_has_120_lines_at_most():
     assert len((ROOT / "README.md").read_text(encoding="utf-8").splitlines()) <= 120
+
+
+def test_of_each_question_the_reference_has_eight_rows_and_five_findings_at_most():
+    """What a newcomer reads; all else is in the folders' own tables."""
+    text = (ROOT / "reports/reference/README.md").read_text(encoding="utf-8")
+    parts = dict(part.split("\n", 1) for part in text.split("\n## ")[1:])
+    questions = {name: body for name, body in parts.items() if "<!-- numbers: " in body}
+    assert len(questions) == 6
+    for name, body in questions.items():
+        rows = re.findall(r"^\|(?! \|| ---)", body, re.M)
+        findings = re.findall(r"^- ", body, re.M)
+        assert (name, len(rows) <= 8, len(findings) <= 5) == (name, True, True)
