@@ -178,7 +178,7 @@ experiments.nsm.training | {steps: 10, crops: 2, crop: 32, learning_rate: 0.1, s
 networks_by_scene.mine | {experiments: [nsm, nsm_plain], label: Mine} | networks_by_scene.mine.experiments: 'room' has two networks
 networks_by_scene.nsm | {experiments: [nsm], label: Mine} | networks_by_scene.nsm: an entry of `experiments` has this name
 frame_sets.windows.unseen | [] | tables.shipped_unseen.over: frame_sets.windows has no `unseen`
-frame_sets.windows.sequence | 0 | tables.kpnsm_table_3.frame_set: frame_sets.windows has sequence = 0
+frame_sets.windows.sequence | 0 | tables.shipped_temporal.frame_set: frame_sets.windows has sequence = 0
 tables.kpnsm_unseen.metrics | [time] | tables.kpnsm_unseen: metrics: time is not available with `by: scene`
 tables.kpnsm_unseen.methods | [kpnsm, {method: kpnsm, label: K}] | tables.kpnsm_unseen.methods: 'kpnsm' is listed twice
 tables.soft_methods.methods | [pcss, pcss] | tables.soft_methods.methods: 'pcss' is listed twice

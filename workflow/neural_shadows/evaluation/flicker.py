@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from neural_shadows.denoising import taa
 from neural_shadows.evaluation.answers import flicker_name
 from neural_shadows.evaluation.measured_frames import MeasuredFrame
 from neural_shadows.evaluation.method import Constants, Method
@@ -22,41 +23,39 @@ def flicker(
 ) -> tuple[dict[str, str | int], dict[str, float], dict[str, np.ndarray]]:
     """Instability over a sequence, of the middle radius.
 
-    Of the method, the exact shadow, and the method's frames each averaged with the one before
-    (`_taa`); with squared errors, also off the geometry's edges. One frame of history is what Datta et
-    al. 2022 (4) compare with.
+    Of the method, the exact shadow, and the method with temporal anti-aliasing, by one frame (`_taa`), as
+    Datta et al. 2022 (4) compare with, and recursive; with squared errors, also off the geometry's edges.
     Returns: the columns of the metrics, the metrics by name, and mean changes of each pixel,
         (height, width), by name, see `answers`.
     """
-    changes: dict[str, list[np.ndarray]] = {"": [], "_reference": [], "_taa": []}
-    errors = defaultdict(list)
+    errors, changes = defaultdict(list), defaultdict(list)
     images = answer_sequence(steps_of(frames), method, constants)
-    step, last = next(images)
-    before, averaged = step.now, last
-    sums = {name: np.zeros(last.size, np.float32) for name in changes}
+    step, image = next(images)
+    part, k = step.now.part, step.now.middle
+    key = step.now.key(k) | {"frame": 0}
+    shown = dict.fromkeys(("", "_taa", "_recursive"), image) | {"_reference": step.now.target[k]}
+    sums = {name: np.zeros(image.size, np.float32) for name in ("", "_reference")}
     advance()
-    part, k = before.part, before.middle
-    key = before.key(k) | {"frame": 0}
-    for step, visibility in images:
-        now, (accepted, pixels_before) = step.now, step.seen
-        pixel, pixels_before = now.frame.surface.pixel[accepted], pixels_before[:, accepted]
-        target = now.target[k]
-        blended = visibility.copy()
-        blended.ravel()[pixel] += (looked_up(last, pixels_before) - blended.ravel()[pixel]) / 2
-        for name, old, new in (
-            ("", last, visibility),
-            ("_reference", before.target[k], target),
-            ("_taa", averaged, blended),
-        ):
-            changes[name].append(new.ravel()[pixel] - looked_up(old, pixels_before))
-            sums[name][pixel] += np.abs(changes[name][-1])
+    for step, image in images:
+        now, (accepted, places) = step.now, step.seen
+        pixel, places = now.frame.surface.pixel[accepted], places[:, accepted]
+        past = {name: looked_up(before, places) for name, before in shown.items()}
+        shown = {
+            "": image,
+            "_taa": taa.blended(image, pixel, past[""]),
+            "_recursive": taa.recursive(image, pixel, past["_recursive"]),
+            "_reference": now.target[k],
+        }
+        for name, new in shown.items():
+            changes[name].append(new.ravel()[pixel] - past[name])
+        for name, total in sums.items():
+            total[pixel] += np.abs(changes[name][-1])
         pixels_of = {"": now.valid, "_off_edges": now.off_edges}
-        for name, image in (("sequence", visibility), ("taa", blended)):
-            square = np.square(image - target)
+        for name, error in (("sequence", ""), ("taa", "_taa"), ("recursive", "_recursive")):
+            square = np.square(shown[error] - now.target[k])
             for ending, mask in pixels_of.items():
                 if mask is not None:
                     errors[f"mse_{name}{ending}"].append(float(square[mask].mean()))
-        before, last, averaged = now, visibility, blended
         advance()
     pixels = part.about["width"] * part.about["height"]
     values = {name: float(np.mean(each)) for name, each in errors.items()}
@@ -64,7 +63,7 @@ def flicker(
         changed = measure("of_changes", "soft", each, pixels)
         values |= {f"{metric}{name}": value for metric, value in changed.items()}
     count = len(errors["mse_sequence"])
-    maps = {name: (total / count).reshape(last.shape) for name, total in sums.items()}
+    maps = {name: (total / count).reshape(image.shape) for name, total in sums.items()}
     path = part.frames_json
     named = {flicker_name(path): maps[""], flicker_name(path, True): maps["_reference"]}
     return key, values, named

@@ -14,6 +14,13 @@ from neural_shadows.reports.data.table import Table, numbers
 from neural_shadows.sections.frame_tables import MethodsTable
 from neural_shadows.settings.base import Name
 
+# Endings of labels, and of metrics of changes and of errors, by `taa`.
+TAA = {
+    None: ("", "", "sequence"),
+    "one frame": (" + TAA", "_taa", "taa"),
+    "recursive": (" + recursive TAA", "_recursive", "recursive"),
+}
+
 
 class Settings(MethodsTable):
     """Flicker of methods on a frame set's sequences, with and without TAA."""
@@ -31,7 +38,7 @@ class Settings(MethodsTable):
 
 
 def table(soft: TrainedFrames) -> Table:
-    """Tabulate flicker by method, with and without averaging two frames.
+    """Tabulate flicker by method, with and without TAA.
 
     CSV: those of `temporal_table`, and the scale.
     """
@@ -54,7 +61,9 @@ def table(soft: TrainedFrames) -> Table:
         "so the squared error stands beside it; also off the geometry's edges: at these a blur has less "
         "than the exact shadow of a pixel's centre.",
         f"Sequences have a {lights[len(lights) // 2]}. TAA: each frame averaged with the one before, "
-        f"at points seen in both. What has a history begins with {RUN_IN} frames at rest in the first "
+        "at points seen in both, as in the text; recursive TAA: a tenth of each frame is added to what was shown before, "
+        "clipped to one standard deviation about the mean of 3 × 3 pixels, as engines do it behind any method. "
+        f"What has a history begins with {RUN_IN} frames at rest in the first "
         "view. Edges: within 3 pixels of a point light's shadow edges, in test frames, of all lights. Edge "
         "width: how sharp a point light's edges are; the area with visibilities of 10 to 90 % near them, × 1.25, over "
         "their length, where the picture has an edge, too; about 8 at most.",
@@ -68,7 +77,7 @@ def temporal_table(soft: TrainedFrames) -> pd.DataFrame:
 
     A null predictor among the methods has a row of either kind, so that claims are tried with it.
 
-    Columns: `method`, `label`, `null` (its name, None of a method), `taa`; by what moves in a
+    Columns: `method`, `label`, `null` (its name, None of a method), `taa` (of `TAA`); by what moves in a
     sequence `e_camera`, …, and `reference_camera`, …, of the exact shadow; `mse_sequence`,
     `mse_sequence_off_edges`; of test frames, NaN with TAA, `mse_edge`, and of a point light, NaN without
     one, `edge_width` and `edge_width_reference`, pixels.
@@ -78,16 +87,14 @@ def temporal_table(soft: TrainedFrames) -> pd.DataFrame:
     nulls = [(null, label, null) for null, label in soft.nulls.items()]
     for method, label, null in [*methods, *nulls]:
         own = soft.errors[soft.errors["method"] == method]
-        for taa in (False, True) if null is None else (False,):
-            end = "_taa" if taa else ""
-            row = {"method": method, "label": f"{label} + TAA" if taa else label, "taa": taa}
-            row["null"] = null
-            row |= _by_kind(own, f"instability{end}", "e")
+        for taa in TAA if null is None else [None]:
+            end, changed, wrong = TAA[taa]
+            row = {"method": method, "label": f"{label}{end}", "taa": taa, "null": null}
+            row |= _by_kind(own, f"instability{changed}", "e")
             row |= _by_kind(own, "instability_reference", "reference")
-            for ending in ("", "_off_edges"):
-                measured = f"mse_taa{ending}" if taa else f"mse_sequence{ending}"
-                row[f"mse_sequence{ending}"] = _mean(own, measured)
-            frames = own[:0] if taa else own
+            for pixels in ("", "_off_edges"):
+                row[f"mse_sequence{pixels}"] = _mean(own, f"mse_{wrong}{pixels}")
+            frames = own if taa is None else own[:0]
             row["mse_edge"] = _mean(frames, "mse_edge")
             row |= {name: _mean(frames, name) for name in ("edge_width", "edge_width_reference")}
             rows.append(row)

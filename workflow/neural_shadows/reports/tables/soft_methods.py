@@ -40,10 +40,15 @@ PARTS = ("mse_umbra", "mse_penumbra", "mse_lit", "mse_edge")
 SHARES = ("false_shadow", "light_leak")
 IMAGES = {"ssim": 3, "flip": 4, "lpips": 4}  # digits
 MEANS = (*PARTS, *SHARES, *IMAGES)
+_SHOWN = ("", "_taa", "_recursive")  # of a sequence, see `evaluation.flicker`
 FLICKER = (
-    *("instability", "instability_reference", "instability_taa"),
-    *("temporal_error", "temporal_error_reference", "temporal_error_taa"),
-    *("mse_sequence", "mse_sequence_off_edges", "mse_taa", "mse_taa_off_edges"),
+    *(f"instability{of}" for of in (*_SHOWN, "_reference")),
+    *(f"temporal_error{of}" for of in (*_SHOWN, "_reference")),
+    *(
+        f"mse_{of}{pixels}"
+        for of in ("sequence", "taa", "recursive")
+        for pixels in ("", "_off_edges")
+    ),
 )
 
 
