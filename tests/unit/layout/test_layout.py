@@ -37,6 +37,14 @@ def desk() -> Layout:
     return layout_of()
 
 
+def test_sequences_are_of_the_first_scene_or_of_those_named(desk):
+    parts = frame_sets.sequences(desk, "frames")
+    assert {part.split("/")[-2] for part in parts} == {"room_dragon"} and len(parts) == 4
+    parts = frame_sets.sequences(desk, "windows")
+    moving = desk.frames("windows")["moving"]
+    assert [part.split("/")[-2] for part in parts] == [name for name in moving for _ in range(4)]
+
+
 def test_parts_follow_each_other():
     assert [part_range(25, 3, part) for part in range(3)] == [(0, 8), (8, 16), (16, 25)]
     views = Views(width=64, height=64, views_per_set=25, batch=12, held_out_views=8)

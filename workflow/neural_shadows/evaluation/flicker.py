@@ -11,6 +11,7 @@ from neural_shadows.evaluation.answers import flicker_name
 from neural_shadows.evaluation.measured_frames import MeasuredFrame
 from neural_shadows.evaluation.method import Constants, Method
 from neural_shadows.evaluation.sequences import answer_sequence, steps_of
+from neural_shadows.metrics.kinds.sequences import SHOWN
 from neural_shadows.metrics.registry import measure
 from neural_shadows.rendering.reprojection import looked_up
 
@@ -24,7 +25,8 @@ def flicker(
     """Instability over a sequence, of the middle radius.
 
     Of the method, the exact shadow, and the method with temporal anti-aliasing, by one frame (`_taa`), as
-    Datta et al. 2022 (4) compare with, and recursive; with squared errors, also off the geometry's edges.
+    Datta et al. 2022 (4) compare with, and recursive; with squared errors, also off the geometry's edges, and of
+    the changes.
     Returns: the columns of the metrics, the metrics by name, and mean changes of each pixel,
         (height, width), by name, see `answers`.
     """
@@ -33,7 +35,7 @@ def flicker(
     step, image = next(images)
     part, k = step.now.part, step.now.middle
     key = step.now.key(k) | {"frame": 0}
-    shown = dict.fromkeys(("", "_taa", "_recursive"), image) | {"_reference": step.now.target[k]}
+    shown = dict.fromkeys(SHOWN, image) | {"_reference": step.now.target[k]}
     sums = {name: np.zeros(image.size, np.float32) for name in ("", "_reference")}
     advance()
     for step, image in images:
@@ -51,11 +53,13 @@ def flicker(
         for name, total in sums.items():
             total[pixel] += np.abs(changes[name][-1])
         pixels_of = {"": now.valid, "_off_edges": now.off_edges}
-        for name, error in (("sequence", ""), ("taa", "_taa"), ("recursive", "_recursive")):
-            square = np.square(shown[error] - now.target[k])
-            for ending, mask in pixels_of.items():
+        for name in SHOWN:
+            square = np.square(shown[name] - now.target[k])
+            for of, mask in pixels_of.items():
                 if mask is not None:
-                    errors[f"mse_{name}{ending}"].append(float(square[mask].mean()))
+                    errors[f"mse_sequence{of}{name}"].append(float(square[mask].mean()))
+            wrong = changes[name][-1] - changes["_reference"][-1]
+            errors[f"mse_change{name}"].append(float(np.square(wrong).mean()))
         advance()
     pixels = part.about["width"] * part.about["height"]
     values = {name: float(np.mean(each)) for name, each in errors.items()}

@@ -178,20 +178,21 @@ def all_meshes(layout: Layout, frame_set: str) -> list[str]:
 
 
 def sequences(layout: Layout, frame_set: str) -> list[str]:
-    """Measured sequences of a frame set, of its first scene."""
-    return [part for use in SEQUENCES for part in _of_first(layout, frame_set, use)]
+    """Measured sequences of a frame set, by scene."""
+    settings = layout.frames(frame_set)
+    if settings["path"] is not None:
+        return []
+    scenes = settings["moving"] or settings["scenes"][:1]
+    pairs = ((scene, use) for scene in scenes for use in SEQUENCES)
+    return [part for scene, use in pairs for part in parts(layout, scene, frame_set, use)]
 
 
 def tuned_sequence(layout: Layout, frame_set: str) -> list[str]:
     """The sequence on which constants are chosen, of the first scene, if the set has sequences."""
-    return _of_first(layout, frame_set, TUNED_SEQUENCE)
-
-
-def _of_first(layout: Layout, frame_set: str, use: str) -> list[str]:
     settings = layout.frames(frame_set)
     if settings["path"] is not None:
         return []
-    return parts(layout, settings["scenes"][0], frame_set, use)
+    return parts(layout, settings["scenes"][0], frame_set, TUNED_SEQUENCE)
 
 
 def first_tests(layout: Layout, frame_set: str) -> list[str]:

@@ -120,7 +120,12 @@ class RenderedFrames(Model):
         le=10_000,
         description="test frames of each scene in `unseen`; default: as `test`",
     )
-    sequence: int = Field(0, ge=0, le=1000, description="frames per sequence of the first scene")
+    sequence: int = Field(0, ge=0, le=1000, description="frames per sequence; 0 for none")
+    moving: list[name_in("scenes")] | None = Field(
+        None,
+        min_length=1,
+        description="scenes of `scenes` and `unseen` with sequences; without it the first",
+    )
     shard: int = Field(16, ge=1, le=10_000, description="frames per file, and per job")
     twins: Perturbed = Field(
         PerturbedByShares(), description="perturbed training frames, for temporal losses"
@@ -151,6 +156,12 @@ class RenderedFrames(Model):
             raise ValueError(
                 f"of = {self.of.width} × {self.of.height}: must be at least the window, "
                 f"{self.width} × {self.height}"
+            )
+        if others := [
+            name for name in self.moving or () if name not in (*self.scenes, *self.unseen)
+        ]:
+            raise ValueError(
+                f"moving: {', '.join(others)}: neither in `scenes` nor in `unseen`. List it there, or not here"
             )
         if self.sequence == 1:
             raise ValueError(

@@ -184,19 +184,23 @@ def test_flicker_by_what_moves(made):
         for kind, factor in {"camera": 1, "light": 2}.items()
         for metric, value in {
             **{"instability": 0.2 * factor, "instability_taa": 0.1 * factor},
-            **{"instability_recursive": 0.02 * factor, "mse_recursive": 0.04},
-            **{"instability_reference": 0.05, "mse_sequence": 0.02, "mse_taa": 0.03},
+            **{"instability_recursive": 0.02 * factor, "mse_sequence_recursive": 0.04},
+            **{"instability_reference": 0.05, "mse_sequence": 0.02, "mse_sequence_taa": 0.03},
+            **{"mse_change": 0.001 * factor},
         }.items()
     ]
+    rows += [{**row, "scene": "other", "value": 3 * row["value"]} for row in rows]
     rows.append({"metric": "mse_edge", "value": 0.5})
     widths = enumerate((3, np.nan))  # of the point light, the first of two
     rows += [{"metric": "edge_width", "radius": k, "value": width} for k, width in widths]
     table, text = made(screen_temporal, {"five": rows}, labels={"five": "Five"})
     assert table["edge_width"].tolist() == pytest.approx([3, np.nan, np.nan], nan_ok=True)
     assert table["label"].tolist() == ["Five", "Five + TAA", "Five + recursive TAA"]
-    assert table["e_light"].tolist() == [0.4, 0.2, 0.04]
-    assert table["e_camera"].tolist() == [0.2, 0.1, 0.02]
-    assert table["mse_sequence"].tolist() == [0.02, 0.03, 0.04] and table["mse_edge"][0] == 0.5
+    # Means over both scenes, one with three times the values.
+    assert table["e_light"].tolist() == pytest.approx([0.8, 0.4, 0.08])
+    assert table["e_camera"].tolist() == pytest.approx([0.4, 0.2, 0.04])
+    assert table["mse_sequence"].tolist() == pytest.approx([0.04, 0.06, 0.08])
+    assert table["mse_change"][0] == pytest.approx(0.003) and table["mse_edge"][0] == 0.5
 
 
 def test_what_was_learned_beside_what_was_not(made):

@@ -94,7 +94,7 @@ def seeds_of(count: int, needed: int) -> str:
 
 def of_all_pixels(metric: str) -> str:
     """The metric of all pixels for one off edges."""
-    return metric.removesuffix(OFF_EDGES.removeprefix("mse"))
+    return metric.replace(OFF_EDGES.removeprefix("mse"), "")
 
 
 def verdict_of(comparisons: Sequence[Comparison]) -> str:

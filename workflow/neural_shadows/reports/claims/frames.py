@@ -15,6 +15,7 @@ from neural_shadows.layout import tables
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.report_inputs import Report
 from neural_shadows.metrics.intervals import FEWEST_SCENES, FEWEST_VIEWS, kinds_of, scenes_interval
+from neural_shadows.metrics.kinds import sequences
 from neural_shadows.metrics.registry import frame_metrics, metrics
 from neural_shadows.reports.claims import screen_networks
 from neural_shadows.reports.claims.comparison import Comparison, judged, of_all_pixels, seeds_of
@@ -26,7 +27,7 @@ from neural_shadows.reports.data.soft_costs import cost
 from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.records import SoftTimes
 
-METRICS = frame_metrics("soft")
+METRICS = [*frame_metrics("soft"), *sequences.METRICS]
 # One of a pair: rays of its kind that take as long as the other, or as its first seed.
 EQUAL_TIME = {"rays_of_equal_time": r"rt_(\d+)", "ffx_rays_of_equal_time": r"rt_(\d+)_ffx"}
 ITS_BASE = "base"  # a null predictor by network: its base, or the light's map

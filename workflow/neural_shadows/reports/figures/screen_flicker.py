@@ -37,12 +37,13 @@ class Settings(TableFigure):
 def draw(
     sequences: list[Path], soft_answers: list[Path], heading: str, labels: Mapping[str, str]
 ) -> Figure:
-    """Draw flicker by method, exact shadows first, and sequence.
+    """Draw flicker by method, exact shadows first, and sequence of the first scene.
 
     Args:
         sequences: parts of a frame set; soft_answers: of each method, by file name.
         labels: of the methods, in the order to draw them.
     """
+    sequences = [part for part in sequences if part.parent == sequences[0].parent]
     paths = {path.stem: path for path in soft_answers}
     first = next(iter(paths.values()))
     maps = {"exact": [read_answer(first, flicker_name(part, exact=True)) for part in sequences]}

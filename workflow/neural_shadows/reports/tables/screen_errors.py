@@ -118,10 +118,9 @@ def _tested(own: pd.DataFrame, record: TrainingRecord) -> Iterator[dict[str, Any
             row = {"frames": scene, "learned": learned, "light": str(light)}
             yield row | squared_errors(of_light) | _widths(own, scene, light)
     in_sequences = {"mse_sequence": "mse", "mse_sequence_off_edges": OFF_EDGES}
-    paths = own[own["metric"].isin(in_sequences)]
-    if len(paths):
-        row = {"frames": SEQUENCES, "learned": paths["scene"].iloc[0] in record["scenes"]}
-        row |= {"light": str(paths["radius"].iloc[0])}
+    moving = own[own["metric"].isin(in_sequences)]
+    for learned, paths in moving.groupby(moving["scene"].isin(record["scenes"])):
+        row = {"frames": SEQUENCES, "learned": learned, "light": str(paths["radius"].iloc[0])}
         yield row | squared_errors(paths.assign(metric=paths["metric"].map(in_sequences)))
 
 

@@ -1,6 +1,5 @@
 """Flicker of screen-space networks, with and without TAA (NSM, figures 5, 6)."""
 
-from collections.abc import Sequence
 from typing import Literal
 
 import pandas as pd
@@ -14,12 +13,13 @@ from neural_shadows.reports.data.table import Table, numbers
 from neural_shadows.sections.frame_tables import MethodsTable
 from neural_shadows.settings.base import Name
 
-# Endings of labels, and of metrics of changes and of errors, by `taa`.
+# Endings of labels and of metrics, by `taa`.
 TAA = {
-    None: ("", "", "sequence"),
-    "one frame": (" + TAA", "_taa", "taa"),
-    "recursive": (" + recursive TAA", "_recursive", "recursive"),
+    None: ("", ""),
+    "one frame": (" + TAA", "_taa"),
+    "recursive": (" + recursive TAA", "_recursive"),
 }
+_ERRORS = ("mse_sequence", "mse_sequence_off_edges", "mse_change")
 
 
 class Settings(MethodsTable):
@@ -51,6 +51,7 @@ def table(soft: TrainedFrames) -> Table:
         **{f"exact, {kind}": numbers(table[f"reference_{kind}"], "{:.4f}") for kind in kinds},
         f"{metrics()['mse'].label} in sequences": metric_column(table, "mse", "mse_sequence"),
         "in sequences, off edges": metric_column(table, "mse", "mse_sequence_off_edges"),
+        "of changes": metric_column(table, "mse", "mse_change"),
         f"{metrics()['mse'].label} at edges": metric_column(table, "mse_edge"),
         "edge width, px": numbers(table["edge_width"], "{:.1f}"),
         "exact": numbers(table["edge_width_reference"], "{:.1f}"),
@@ -59,7 +60,8 @@ def table(soft: TrainedFrames) -> Table:
         "E: mean of exp(3 |change|) − 1 along a point's motion over a sequence (3.4), by what moves "
         "in it. Exact: E of the exact shadow, which truly changes with a moving light. Blur lowers E, "
         "so the squared error stands beside it; also off the geometry's edges: at these a blur has less "
-        "than the exact shadow of a pixel's centre.",
+        "than the exact shadow of a pixel's centre. Of changes: squared differences of a point's change and the exact "
+        "shadow's, which neither blur nor lag lowers.",
         f"Sequences have a {lights[len(lights) // 2]}. TAA: each frame averaged with the one before, "
         "at points seen in both, as in the text; recursive TAA: a tenth of each frame is added to what was shown before, "
         "clipped to one standard deviation about the mean of 3 × 3 pixels, as engines do it behind any method. "
@@ -79,7 +81,7 @@ def temporal_table(soft: TrainedFrames) -> pd.DataFrame:
 
     Columns: `method`, `label`, `null` (its name, None of a method), `taa` (of `TAA`); by what moves in a
     sequence `e_camera`, …, and `reference_camera`, …, of the exact shadow; `mse_sequence`,
-    `mse_sequence_off_edges`; of test frames, NaN with TAA, `mse_edge`, and of a point light, NaN without
+    `mse_sequence_off_edges`, `mse_change`; of test frames, NaN with TAA, `mse_edge`, and of a point light, NaN without
     one, `edge_width` and `edge_width_reference`, pixels.
     """
     rows = []
@@ -88,12 +90,11 @@ def temporal_table(soft: TrainedFrames) -> pd.DataFrame:
     for method, label, null in [*methods, *nulls]:
         own = soft.errors[soft.errors["method"] == method]
         for taa in TAA if null is None else [None]:
-            end, changed, wrong = TAA[taa]
+            end, shown = TAA[taa]
             row = {"method": method, "label": f"{label}{end}", "taa": taa, "null": null}
-            row |= _by_kind(own, f"instability{changed}", "e")
+            row |= _by_kind(own, f"instability{shown}", "e")
             row |= _by_kind(own, "instability_reference", "reference")
-            for pixels in ("", "_off_edges"):
-                row[f"mse_sequence{pixels}"] = _mean(own, f"mse_{wrong}{pixels}")
+            row |= {name: _mean(own, f"{name}{shown}") for name in _ERRORS}
             frames = own if taa is None else own[:0]
             row["mse_edge"] = _mean(frames, "mse_edge")
             row |= {name: _mean(frames, name) for name in ("edge_width", "edge_width_reference")}
@@ -103,8 +104,8 @@ def temporal_table(soft: TrainedFrames) -> pd.DataFrame:
 
 def _by_kind(errors: pd.DataFrame, metric: str, prefix: str) -> dict[str, float]:
     rows = errors[errors["metric"] == metric]
-    kinds: Sequence[str] = rows["part"].map(use_of)
-    return {f"{prefix}_{kind}": value for kind, value in zip(kinds, rows["value"])}
+    means = rows.groupby(rows["part"].map(use_of), sort=False)["value"].mean()
+    return {f"{prefix}_{kind}": value for kind, value in means.items()}
 
 
 def _mean(errors: pd.DataFrame, metric: str) -> float:

@@ -14,6 +14,7 @@ from neural_shadows.files.whole_files import read_json
 from neural_shadows.frames.uses import use_of
 from neural_shadows.layout import tables
 from neural_shadows.layout.layout import Layout
+from neural_shadows.metrics.kinds import sequences
 from neural_shadows.metrics.pooled_psnr import psnr_of
 from neural_shadows.metrics.registry import metric_in, metrics
 from neural_shadows.reports.data import phrases
@@ -40,15 +41,10 @@ PARTS = ("mse_umbra", "mse_penumbra", "mse_lit", "mse_edge")
 SHARES = ("false_shadow", "light_leak")
 IMAGES = {"ssim": 3, "flip": 4, "lpips": 4}  # digits
 MEANS = (*PARTS, *SHARES, *IMAGES)
-_SHOWN = ("", "_taa", "_recursive")  # of a sequence, see `evaluation.flicker`
 FLICKER = (
-    *(f"instability{of}" for of in (*_SHOWN, "_reference")),
-    *(f"temporal_error{of}" for of in (*_SHOWN, "_reference")),
-    *(
-        f"mse_{of}{pixels}"
-        for of in ("sequence", "taa", "recursive")
-        for pixels in ("", "_off_edges")
-    ),
+    *(f"instability{of}" for of in (*sequences.SHOWN, "_reference")),
+    *(f"temporal_error{of}" for of in (*sequences.SHOWN, "_reference")),
+    *sequences.METRICS,
 )
 
 
