@@ -7,7 +7,7 @@ import pytest
 
 from neural_shadows.errors import InputError
 from neural_shadows.frames import draw_sequences
-from neural_shadows.frames.draw_sequences import STEP, draw_sequence
+from neural_shadows.frames.draw_sequences import LEAST_CHANGE, STEP, draw_sequence, why_still
 from neural_shadows.frames.draw_settings import (
     EYE_CLEARANCE,
     LIGHT_CLEARANCE,
@@ -15,6 +15,7 @@ from neural_shadows.frames.draw_settings import (
     draw_setting,
     is_clear,
     light_map_of,
+    lit_from,
 )
 from neural_shadows.frames.draw_twins import reach, twin_of
 from neural_shadows.frames.setting import setting_of
@@ -144,6 +145,24 @@ def test_sequences_move_what_they_are_named_for(room, what):
     assert max(step.max() for step in steps) < 3 * STEP * room.at_rest.size
     turns = motions[:, :3, :3]
     assert np.allclose(turns @ turns.transpose(0, 2, 1), np.eye(3))
+
+
+def test_the_shadow_of_an_object_is_seen_to_move_in_its_sequence(room):
+    """Most windows of a large frame see nothing of it."""
+
+    def changed(settings):
+        lit = []
+        for setting in (settings[0], settings[-1]):
+            scene = room.moved(setting.motion)
+            surface = see_surface(scene, setting.camera, WINDOW.width, WINDOW.height)
+            lit.append(surface.image(lit_from(scene, surface, setting.centre), False))
+        return np.mean(lit[0] != lit[1])
+
+    for seed in range(3):
+        settings = draw_sequence(room, WINDOW, "object", 5, np.random.default_rng(seed))
+        assert changed(settings) > 0.5 * 4 * LEAST_CHANGE
+        still = [replace(settings[0], motion=np.eye(4))] * 2
+        assert why_still(room, WINDOW, still) == "no shadow of what moves is seen"
 
 
 def test_where_the_mover_was(room):

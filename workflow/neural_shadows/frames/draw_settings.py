@@ -123,14 +123,19 @@ def why_unusable(scene: SoftScene, opened: Scene, kind: FrameKind, setting: Sett
     if len(surface.p) < 0.5 * surface.width * surface.height:
         return "the camera sees little"
     light_map = light_map_of(kind.light_map, scene, setting.centre, shape=kind.shape)
-    to_light = setting.centre - surface.p
-    if np.mean(light_map.texels_of(-to_light) >= 0) < IN_MAP:
+    if np.mean(light_map.texels_of(surface.p - setting.centre) >= 0) < IN_MAP:
         return "visible points lie outside the light's map"
+    least, most = scene.arrangement.lit
+    lit = lit_from(opened, surface, setting.centre)
+    return None if least <= lit.mean() <= most else "nearly all pixels are lit, or all dark"
+
+
+def lit_from(opened: Scene, surface: Surface, centre: np.ndarray) -> np.ndarray:
+    """Which points of a surface see the light's centre, (n,) bool."""
+    to_light = centre - surface.p
     start = surface.p + np.float32(OFFSET * opened.size) * surface.n_g
     lit = ~opened.tracer.blocked(start, to_light.astype(np.float32))
-    lit &= np.einsum("ij,ij->i", surface.n_g, to_light) > 0
-    least, most = scene.arrangement.lit
-    return None if least <= lit.mean() <= most else "nearly all pixels are lit, or all dark"
+    return lit & (np.einsum("ij,ij->i", surface.n_g, to_light) > 0)
 
 
 def preview(opened: Scene, kind: FrameKind, setting: Setting) -> Surface:
