@@ -177,9 +177,12 @@ experiments.nsm.training | {steps: 10, crops: 2, crop: 32, learning_rate: 0.1, t
 experiments.nsm.training | {steps: 10, crops: 2, crop: 32, learning_rate: 0.1, schedule: steps, tenth_from: [4, 10]} | = [4, 10]: must be ascending, without repetition, and end below steps = 10
 networks_by_scene.mine | {experiments: [nsm, nsm_plain], label: Mine} | networks_by_scene.mine.experiments: 'room' has two networks
 networks_by_scene.nsm | {experiments: [nsm], label: Mine} | networks_by_scene.nsm: an entry of `experiments` has this name
-frame_sets.windows.unseen | [] | frame_sets.windows: moving: garden, workshop, stairs, blinds, tree: neither in `scenes` nor in `unseen`
+frame_sets.windows.unseen | [] | frame_sets.windows: moving: blinds, garden, stairs, tree, workshop: neither in `scenes` nor in `unseen`
 tables.mine | {kind: soft_summary, title: Mine, frame_set: sun, over: unseen, methods: [hard]} | tables.mine.over: frame_sets.sun has no `unseen`
-frame_sets.windows.sequence | 0 | tables.shipped_temporal.frame_set: frame_sets.windows has sequence = 0
+frame_sets.nsm.sequence | 0 | tables.nsm_temporal.frame_set: frame_sets.nsm has sequence = 0
+frame_sets.windows.sequence | 0 | frame_sets.windows: moving: needs a `sequence`
+frame_sets.windows.moving | [tree, tree] | frame_sets.windows: moving: tree, tree: a scene is listed twice
+claims.shipped_rays_better_behind_taa.radii | [2] | mse_sequence_off_edges_recursive is measured in sequences, by the middle light. Write `radii: [3]`
 tables.kpnsm_unseen.metrics | [time] | tables.kpnsm_unseen: metrics: time is not available with `by: scene`
 tables.kpnsm_unseen.methods | [kpnsm, {method: kpnsm, label: K}] | tables.kpnsm_unseen.methods: 'kpnsm' is listed twice
 tables.soft_methods.methods | [pcss, pcss] | tables.soft_methods.methods: 'pcss' is listed twice

@@ -2,6 +2,7 @@
 
 import json
 import time
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -11,6 +12,7 @@ from opened import evaluate_frames, frame_method, settings_of
 from rendered_frames import FRAMES, render_part
 from threadpoolctl import threadpool_info
 
+from neural_shadows.denoising.taa import blended, recursive
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation import time_frames as timing
 from neural_shadows.evaluation.answers import read_answer
@@ -26,6 +28,7 @@ from neural_shadows.evaluation.time_methods import time_methods
 from neural_shadows.evaluation.tune import tune as tune_stage
 from neural_shadows.frames import soft_frame
 from neural_shadows.frames.uses import RUN_IN
+from neural_shadows.rendering.reprojection import looked_up
 from neural_shadows.rendering.surface import see_surface
 from neural_shadows.reports.data.soft_costs import describe_times
 
@@ -161,6 +164,22 @@ def test_new_rays_flicker_and_a_filter_calms_them(folder):
     assert noise["rt_1_svgf"] < noise["rt_1"] / 2
 
 
+def showing(image_of, history=True):
+    """A method that shows images (H, W) by the number of a sequence's frame, at rest the first."""
+
+    def answer(frame, radius):
+        return image_of(max(frame.number - RUN_IN, 0)).ravel()[frame.surface.pixel]
+
+    sequence = (lambda radius: lambda frame, back: answer(frame, radius)) if history else None
+    return Method(answer, by_rays=True, sequence=sequence)
+
+
+def in_motion(frames, method, constants=None):
+    """Metrics of a sequence."""
+    none = [{}] * len(RADII)
+    return flicker(frames, method, none, constants or none, lambda: None)[1]
+
+
 def test_a_history_is_measured_after_a_rest_in_the_first_view(folder):
     """Which a method without noise has learned by then: 1 − 0.5 to the number of frames."""
     steps = []
@@ -172,9 +191,9 @@ def test_a_history_is_measured_after_a_rest_in_the_first_view(folder):
 
         return step
 
-    method = Method(None, label="grows", sequence=sequence)
+    method = Method(lambda frame, radius: frame.cosines, label="grows", sequence=sequence)
     frames = [*measured_frames([folder / "camera_000.json"], [])]
-    _, values, _ = flicker(frames, method, [{}] * len(RADII), lambda: None)
+    values = in_motion(frames, method)
     assert len(frames) > 1
     assert steps == [(number, number == 0) for number in range(RUN_IN + len(frames))]
     assert values["instability"] < 3 * 0.5**RUN_IN < 0.5 * values["instability_reference"]
@@ -188,40 +207,63 @@ def test_errors_of_sequences_are_off_the_edges_of_geometry(folder):
         now = frames[number]
         return np.where(now.part.edges[number], 1 - now.target[now.middle], now.target[now.middle])
 
-    def sequence(radius):
-        return lambda frame, back: exact_but_at_edges(max(frame.number - RUN_IN, 0)).ravel()[
-            frame.surface.pixel
-        ]
-
-    method = Method(None, sequence=sequence)
-    _, values, _ = flicker(frames, method, [{}] * len(RADII), lambda: None)
+    method = showing(exact_but_at_edges)
+    values = in_motion(frames, method)
     assert np.mean([frame.off_edges.sum() / frame.valid.sum() for frame in frames]) < 0.95
     assert values["mse_sequence_off_edges"] < 1e-12 < 1e-4 < values["mse_sequence_off_edges_taa"]
+    # A point's look-up is between pixels, some of which are at edges.
+    assert values["mse_change_off_edges"] < values["mse_change"] / 4
     assert values["mse_sequence"] > 1e-3
     assert squared_error([*steps_of(frames)], method, {}) < 1e-12
 
 
 def test_what_lags_changes_otherwise_than_the_exact_shadow(folder):
-    """Though its E is less; what is exact has no such error, and what rests has that of the truth's changes."""
+    """Though its E is less; what is exact has no such error."""
     frames = [*measured_frames([folder / "light_000.json"], [])]
-
-    def values_of(number_shown):
-        def sequence(radius):
-            def step(frame, back):
-                now = frames[number_shown(max(frame.number - RUN_IN, 0))]
-                return now.target[now.middle].ravel()[frame.surface.pixel]
-
-            return step
-
-        _, values, _ = flicker(
-            frames, Method(None, sequence=sequence), [{}] * len(RADII), lambda: None
-        )
-        return values
-
-    exact, resting = values_of(lambda number: number), values_of(lambda number: 0)
+    target = [frame.target[frame.middle] for frame in frames]
+    exact, resting = (
+        in_motion(frames, showing(lambda number, of=of: target[of(number)]))
+        for of in (lambda number: number, lambda number: 0)
+    )
     assert exact["mse_change"] == 0 < exact["instability"]
     assert resting["mse_change"] > 1e-5 and resting["instability"] < exact["instability"] / 100
-    assert exact["mse_change_recursive"] > 0
+
+
+def test_noise_changes_where_the_exact_shadow_does_not(folder):
+    """Independent frames differ by twice their variance, and by less behind TAA."""
+    frames = [*measured_frames([folder / "camera_000.json"], [])]
+    rng = np.random.default_rng(0)
+    noise = rng.normal(0, 0.1, (len(frames), *frames[0].valid.shape)).astype(np.float32)
+    shown = [frame.target[frame.middle] + each for frame, each in zip(frames, noise)]
+    values = in_motion(frames, showing(shown.__getitem__, history=False))
+    assert 0.01 < values["mse_change"] < 2.2 * 0.01  # bilinear look-ups may smooth one of the two
+    assert values["mse_change_recursive"] < values["mse_change_taa"] < values["mse_change"]
+    assert not any(name.endswith("_single") for name in values)
+
+
+def test_taa_stands_behind_single_frames_in_the_place_of_a_history(folder):
+    frames = [*measured_frames([folder / "camera_000.json"], [])]
+    images = np.random.default_rng(0).random((len(frames), *frames[0].valid.shape), np.float32)
+    with_history = replace(
+        showing(images.__getitem__), sequence=showing(lambda _: images[0]).sequence
+    )
+    values = in_motion(frames, with_history)
+    squares, before, shown = {"taa": [], "recursive": []}, None, None
+    for image, step in zip(images, steps_of(frames)):
+        now = step.now
+        single = now.frame.surface.image(image.ravel()[now.frame.surface.pixel], 1.0)
+        if before is None:
+            before = shown = single
+            continue
+        accepted, places = step.seen
+        pixel, places = now.frame.surface.pixel[accepted], places[:, accepted]
+        by_one = blended(single, pixel, looked_up(before, places))
+        before, shown = single, recursive(single, pixel, looked_up(shown, places))
+        for name, image_shown in (("taa", by_one), ("recursive", shown)):
+            squares[name].append(np.square(image_shown - now.target[now.middle])[now.valid].mean())
+    for name, each in squares.items():
+        assert values[f"mse_sequence_{name}"] == pytest.approx(np.mean(each), rel=1e-5)
+    assert values["mse_sequence_single"] != values["mse_sequence"]
 
 
 def test_constants_that_are_searched_jointly_are_so_for_sequences(folder):
@@ -241,7 +283,7 @@ def test_constants_for_sequences_are_chosen_with_the_history(folder):
     record, method = json.loads(out.read_text()), frame_method("rt_1_ffx")
     frames = [*measured_frames([sequence], [])]
     errors = {
-        value: flicker(frames, method, [{"sigma": value}] * len(RADII), lambda: None)[1]
+        value: in_motion(frames, method, [{"sigma": value}] * len(RADII))
         for value in method.constants["sigma"]
     }
     best = min(errors, key=lambda value: errors[value]["mse_sequence_off_edges"])

@@ -18,7 +18,7 @@ from neural_shadows.layout.layout import Layout
 from neural_shadows.reports.claims.claim_kinds import kind_of, methods
 from neural_shadows.reports.claims.gates import judge
 from neural_shadows.reports.data.trained import THESIS_SAMPLES
-from neural_shadows.reports.tables.screen_temporal import TAA
+from neural_shadows.reports.tables.screen_temporal import ENDINGS
 
 # Folders of the run in which each table is once.
 PARTS = ("spanhoff_2026", "extensions", "soft_shadows", "datta_2022", "hu_2025")
@@ -101,7 +101,7 @@ def labels_of(table):
 
 
 def with_taa(labels):
-    return [f"{label}{taa}" for label in labels for taa, *_ in TAA.values()]
+    return [f"{label}{taa}" for label in labels for taa in ENDINGS.values()]
 
 
 def numbers_of(name):

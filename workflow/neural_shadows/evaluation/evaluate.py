@@ -64,7 +64,7 @@ def evaluate(
     kind, measures = (module_of(names, are_views(frames)) for names in (KIND, METRICS))
     method_of = kind.open_methods(method, inputs)
     constants = constants_of(constants_json, kind.count_radii(frames[0]))
-    in_sequences = sequence_constants_of(constants_json, len(constants))
+    with_history = sequence_constants_of(constants_json, len(constants))
     if bias:
         constants = [{"depth_bias": bias}]
     images = image_metrics(measures.LIGHT, lpips_json, threads)
@@ -84,7 +84,7 @@ def evaluate(
             if scene_method is None:
                 bar.update(sum(1 for _ in of_file))
             elif path in sequences:
-                add(*measures.flicker(of_file, scene_method, in_sequences, bar.update))
+                add(*measures.flicker(of_file, scene_method, constants, with_history, bar.update))
             else:
                 for frame in of_file:
                     for k, shares in enumerate(frame.visibilities(scene_method, constants)):

@@ -10,8 +10,8 @@ A family has `METRICS`, and the function that measures them, by what it needs:
   of a frame.
 - or none: of what trainings or tables compute.
 
-Each returns values by key. None is imported by a statement: `module_graph` adds all of them to what
-imports this module.
+Each returns values by key. None is imported by a statement, but the names of `sequences`: `module_graph` adds all
+of them to what imports this module.
 """
 
 from collections.abc import Callable, Mapping

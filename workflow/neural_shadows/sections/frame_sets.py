@@ -157,11 +157,17 @@ class RenderedFrames(Model):
                 f"of = {self.of.width} × {self.of.height}: must be at least the window, "
                 f"{self.width} × {self.height}"
             )
-        if others := [
-            name for name in self.moving or () if name not in (*self.scenes, *self.unseen)
-        ]:
+        moving = self.moving or ()
+        if moving and not self.sequence:
             raise ValueError(
-                f"moving: {', '.join(others)}: neither in `scenes` nor in `unseen`. List it there, or not here"
+                "moving: needs a `sequence` of 2 frames or more. Set it, or leave `moving` out"
+            )
+        if len(set(moving)) < len(moving):
+            raise ValueError(f"moving: {', '.join(moving)}: a scene is listed twice. List it once")
+        if others := set(moving) - {*self.scenes, *self.unseen}:
+            raise ValueError(
+                f"moving: {', '.join(sorted(others))}: neither in `scenes` nor in `unseen`. List it there, or "
+                "not here"
             )
         if self.sequence == 1:
             raise ValueError(

@@ -186,10 +186,11 @@ def test_flicker_by_what_moves(made):
             **{"instability": 0.2 * factor, "instability_taa": 0.1 * factor},
             **{"instability_recursive": 0.02 * factor, "mse_sequence_recursive": 0.04},
             **{"instability_reference": 0.05, "mse_sequence": 0.02, "mse_sequence_taa": 0.03},
-            **{"mse_change": 0.001 * factor},
+            **{"mse_change": 0.001 * factor, "mse_change_off_edges": 0.0005 * factor},
         }.items()
     ]
-    rows += [{**row, "scene": "other", "value": 3 * row["value"]} for row in rows]
+    rows = [row | {"scene": "room"} for row in rows]
+    rows += [row | {"scene": "other", "value": 3 * row["value"]} for row in rows]
     rows.append({"metric": "mse_edge", "value": 0.5})
     widths = enumerate((3, np.nan))  # of the point light, the first of two
     rows += [{"metric": "edge_width", "radius": k, "value": width} for k, width in widths]
@@ -201,6 +202,7 @@ def test_flicker_by_what_moves(made):
     assert table["e_camera"].tolist() == pytest.approx([0.4, 0.2, 0.04])
     assert table["mse_sequence"].tolist() == pytest.approx([0.04, 0.06, 0.08])
     assert table["mse_change"][0] == pytest.approx(0.003) and table["mse_edge"][0] == 0.5
+    assert table["mse_change_light"][0] == pytest.approx(0.004) and "are of room, other" in text
 
 
 def test_what_was_learned_beside_what_was_not(made):

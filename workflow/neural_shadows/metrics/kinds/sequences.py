@@ -1,16 +1,24 @@
 """Errors over a sequence's frames after the first: `evaluation.flicker` measures them.
 
-Of what is shown: a method, and it with temporal anti-aliasing. Errors of changes are of a point's visibility from
-frame to frame: neither blur nor lag lowers them.
+Errors of changes are of a point's visibility from frame to frame. Where the exact shadow changes, blur and lag leave
+one; where it does not, they lower it, as they lower noise.
 """
 
 from neural_shadows.metrics.metric import Metric
 
-SHOWN = {"": "", "_taa": "with TAA", "_recursive": "with recursive TAA"}
-_ERRORS = {
+# What is shown of a method: it with a history of its own, if it has one; its single frames; and these
+# behind temporal anti-aliasing, in the place of such a history.
+SHOWN = {
+    "": "",
+    "_single": "of single frames",
+    "_taa": "with TAA",
+    "_recursive": "with recursive TAA",
+}
+ERRORS = {
     "mse_sequence": "in sequences",
     "mse_sequence_off_edges": "in sequences, off edges",
     "mse_change": "of changes",
+    "mse_change_off_edges": "of changes, off edges",
 }
 METRICS = {
     f"{error}{ending}": Metric(
@@ -21,6 +29,6 @@ METRICS = {
         digits=1,
         lights=(),
     )
-    for error, of in _ERRORS.items()
+    for error, of in ERRORS.items()
     for ending, shown in SHOWN.items()
 }

@@ -42,8 +42,7 @@ def table(soft: TrainedFrames) -> Table:
         f"By the light's radius, in {unit}. Width: the "
         "area of penumbrae (visibility 10 to 90 %, × 1.25) over the length of the hard shadow's "
         "edges, which is the same for all lights. "
-        "A scene's row is of its test frames; sequences move the camera, the light or an object in the "
-        "first scene.",
+        "A scene's row is of its test frames; sequences move the camera, the light or an object.",
         *_describe_training("× training" in columns),
         *soft.notes(),
     ]
@@ -80,7 +79,7 @@ def errors_table(soft: TrainedFrames) -> pd.DataFrame:
     training, hard = table[table["frames"] == TRAINING], table[table["null"] == HARD]
     return table.assign(
         ratio=_ratio(table, training, ["experiment", "light"]),
-        ratio_to_map=_ratio(table, hard, ["frames", "light"]),
+        ratio_to_map=_ratio(table, hard, ["frames", "learned", "light"]),
     )
 
 

@@ -75,7 +75,7 @@ class Settings(MethodsTable):
     metrics: list[metric_in("soft", "time", "temporal_error")] = Field(
         ["mse", "ssim"],
         min_length=1,
-        description="`temporal_error` is of sequences, of the set's first scene",
+        description="`temporal_error` is of the sequences of these scenes",
     )
 
     @model_validator(mode="after")
@@ -149,7 +149,7 @@ def table(
     notes = [
         *_describe_frames(soft, metrics, measured, by),
         *soft.describe_widths(measured),
-        *([_describe_sequences(soft.errors)] if "temporal_error" in metrics else []),
+        *([_describe_sequences(soft.errors, measured)] if "temporal_error" in metrics else []),
         *([_describe_printed(metrics)] if published else []),
         *describe_times(times),
         *describe_trainings(soft.records, {row["method"]: row["label"] for row in methods}),
@@ -178,7 +178,7 @@ def summary_table(
     frames = errors[errors["scene"].isin(measured)]
     return pd.DataFrame(
         [
-            group | _row(group_frames, errors, times, row, metrics, len(radii))
+            group | _row(group_frames, times, row, metrics, len(radii))
             for group, group_frames in _groups(frames, by, measured, radii)
             for row in methods
         ]
@@ -202,7 +202,6 @@ def _groups(
 
 def _row(
     frames: pd.DataFrame,
-    errors: pd.DataFrame,
     times: SoftTimes,
     row: Mapping[str, Any],
     metrics: Sequence[str],
@@ -219,7 +218,7 @@ def _row(
     if "time" in metrics:
         values["time"] = float(np.mean([cost(times, row["method"], k)["ms"] for k in range(radii)]))
     if "temporal_error" in metrics:
-        values |= _in_sequences(errors[errors["method"] == row["method"]])
+        values |= _in_sequences(own)
     return values
 
 
@@ -291,11 +290,12 @@ def _describe_printed(metrics: Sequence[str]) -> str:
     return f"Printed: {phrases.TEXTS['kpnsm']}, of other scenes and whole frames of 2048 × 1024{timed}."
 
 
-def _describe_sequences(errors: pd.DataFrame) -> str:
-    scenes = errors[errors["metric"] == "temporal_error"]["scene"].unique()
+def _describe_sequences(errors: pd.DataFrame, measured: Sequence[str]) -> str:
+    moving = errors[errors["metric"] == "temporal_error"]["scene"].unique()
+    scenes = [scene for scene in moving if scene in measured]
     return (
         "Temporal error: root of the mean squared change of a point from frame to frame, over all "
-        f"pixels (eq. 7), in a sequence of {', '.join(scenes)}: light and camera move, or one of them "
+        f"pixels (eq. 7), in sequences of {', '.join(scenes)}: light and camera move, or one of them "
         "alone. The exact shadow's is the true change. Blur lowers this error, so the squared error "
         "stands beside it."
     )

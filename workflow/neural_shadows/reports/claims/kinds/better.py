@@ -6,6 +6,7 @@ from typing import Any, Literal
 from pydantic import Field
 
 from neural_shadows.evaluation.registry import is_network
+from neural_shadows.metrics.kinds import sequences
 from neural_shadows.reports.claims import frames, losses, screen_networks, setting_types, views
 from neural_shadows.reports.claims.measured import Claim
 from neural_shadows.reports.data.frame_means import OFF_EDGES
@@ -37,7 +38,7 @@ class Settings(AnyClaim):
         "or `loss` alone, the end of a training's; FLIP replaces LPIPS where its backbone is missing. "
         "Of `table` `mse_off_edges` by default, of pixels without edges of surfaces (the evidence "
         "names the verdict by `mse`, of all pixels, if it differs); `flip` and `lpips` are measured "
-        "for the middle light alone",
+        "for the middle light alone, as all of sequences",
     )
     table: Name | None = Field(
         None, description="a table of `soft_methods` or `soft_summary` in `tables`"
@@ -98,6 +99,15 @@ class Settings(AnyClaim):
             for other in others:
                 networks = [*config.screen_experiments, *config.networks_by_scene]
                 check_among(f"{key}.again.{method}", other, networks)
+        if in_motion := [
+            metric for metric in self.resolved_metrics() if metric in sequences.METRICS
+        ]:
+            middle = len(frame_set.radii) // 2
+            if not frame_set.sequence or self.radii != [middle]:
+                raise ValueError(
+                    f"{key}.metrics: {in_motion[0]} is measured in sequences, by the middle light. Write "
+                    f"`radii: [{middle}]`, and a `sequence` in frame_sets.{table.frame_set}"
+                )
         if self.over == "unseen" and not frame_set.unseen:
             raise ValueError(f"{key}.over: {table.frame_set!r} has no unseen scenes. Choose `all`")
         for k in self.radii or ():
