@@ -64,16 +64,19 @@ def table(soft: TrainedFrames) -> Table:
         "E: mean of exp(3 |change|) − 1 along a point's motion over a sequence (3.4), by what moves "
         "in it. Exact: E of the exact shadow, which truly changes with a moving light. Blur lowers E, "
         "so the squared error stands beside it; also off the geometry's edges: at these a blur has less "
-        "than the exact shadow of a pixel's centre. Of changes: squared differences of a point's change and the exact "
-        "shadow's. Where this changes, blur and lag leave an error; where not, they lower it, as they lower noise.",
-        f"Sequences are of {', '.join(_moving(soft))}, with a {lights[len(lights) // 2]}; what moves goes {STEP:.1%} of the "
-        "scene's size a frame, for some frames: lag has only begun. A filter with a history of its own begins "
-        f"with {RUN_IN} frames at rest. TAA stands behind single frames, in the place of such a history: each frame "
-        "averaged with the one before, at points seen in both, as in the text; recursive, a tenth of each frame is added to "
-        "what was shown before, clipped to one standard deviation about the mean of 3 × 3 pixels, as engines have it, after "
-        f"the mean of {REST} frames at rest where rays differ. Edges: within 3 pixels of a point light's shadow edges, in test frames, of all lights. Edge "
-        "width: how sharp a point light's edges are; the area with visibilities of 10 to 90 % near them, × 1.25, over "
-        "their length, where the picture has an edge, too; about 8 at most.",
+        "than the exact shadow of a pixel's centre. Of changes: squared differences of a point's "
+        "change and the exact shadow's. Where this changes, blur and lag leave an error; where not, "
+        "they lower it, as they lower noise.",
+        f"Sequences are of {', '.join(_moving(soft))}, with a {lights[len(lights) // 2]}. What moves "
+        f"goes {STEP:.1%} of the scene's size a frame, for some frames: lag has only begun. A filter "
+        f"with a history of its own begins with {RUN_IN} frames at rest.",
+        "TAA stands behind single frames, in the place of such a history: each frame averaged with "
+        "the one before, at points seen in both, as in the text. Recursive, as engines have it: a "
+        "tenth of each frame is added to what was shown before, clipped to one standard deviation "
+        f"about the mean of 3 × 3 pixels, after the mean of {REST} frames at rest where rays differ.",
+        "Edges: within 3 pixels of a point light's shadow edges, in test frames, of all lights. Edge "
+        "width: how sharp a point light's edges are; the area with visibilities of 10 to 90 % near "
+        "them, × 1.25, over their length, where the picture has an edge, too; about 8 at most.",
         *soft.notes(),
     ]
     return Table(whole, columns, notes)
