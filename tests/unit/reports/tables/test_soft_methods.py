@@ -8,6 +8,7 @@ import report_samples as samples
 from neural_shadows.evaluation.metric_files import write_metrics
 from neural_shadows.reports.data.frame_means import ERROR_COLUMNS
 from neural_shadows.reports.data.soft_frames import SoftFrames
+from neural_shadows.reports.data.table import with_ends
 from neural_shadows.reports.figures import soft_equal_time
 from neural_shadows.reports.tables import soft_methods
 
@@ -33,7 +34,7 @@ def written(tmp_path):
             for k in (0, 1)
             for name, value in {
                 "mse": mse * (1 + k) * (2 if scene == "tree" else 1) + 1e-4 * frame,
-                "mse_off_edges": mse / 2,
+                "mse_off_edges": mse / 2 + 1e-4 * (frame - 2.5),
                 "l1": mse,
                 "mse_umbra": np.nan if frame else mse,
             }.items()
@@ -67,6 +68,7 @@ def written(tmp_path):
         labels=LABELS,
         left_out=["1 ray, OIDN"],
         unseen=["tree"],
+        against="rt_4",
     )
 
 
@@ -78,11 +80,22 @@ def test_means_over_frames_of_all_scenes(written):
     assert row["mse"] == pytest.approx(0.02 * 2 * 1.5 + 2.5e-4) and row["frames"] == 12
     assert row["mse_low"] < row["mse"] < row["mse_high"]
     assert row["mse_unseen"] == pytest.approx(0.02 * 2 * 2 + 2.5e-4)
-    assert row["mse_off_edges"] == 0.01 and row["mse_off_edges_low"] == 0.01
+    assert row["mse_off_edges_low"] < row["mse_off_edges"] == pytest.approx(0.01)
     assert row["psnr_pooled"] == pytest.approx(-10 * np.log10(row["mse"]), abs=1e-3)
     assert row["mse_umbra"] == pytest.approx(0.02)
     assert row["instability"] == row["instability_light"] == 0.02
     assert np.isnan(table.loc["hard", 0]["instability"])
+
+
+def test_differences_are_of_pairs_of_frames(written):
+    table, text = written[0].set_index(["method", "number"]), written[1].read_text()
+    row = table.loc["pcss_post", 1]
+    # Frames differ by the same in all methods: paired, nothing is left of it.
+    ends = with_ends(soft_methods.DIFFERENCE)
+    assert [row[end] for end in ends] == pytest.approx([-0.0025] * 3)
+    assert np.isnan(table.loc[("rt_4", 1), soft_methods.DIFFERENCE])
+    assert "less that of 4 rays, on the same frames of unseen scenes" in text
+    assert " -25.0 [-25.0, -25.0] |" in text
 
 
 def test_what_looks_at_a_map_waits_for_it(written):

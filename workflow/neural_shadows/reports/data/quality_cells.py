@@ -85,15 +85,16 @@ def metric_column(
     *,
     interval: bool = False,
     digits: int | None = None,
+    sign: str = "",
 ) -> Column:
     """A metric in its unit, with its digits or others.
 
     Args:
         name: of the table's column, if another than the metric's.
-        interval: with its ends, see `with_ends`.
+        interval: with its ends, see `with_ends`, and `sign`, see `intervals`.
     """
     described, name = metrics()[metric], name or metric
     digits = described.digits if digits is None else digits
     if interval:
-        return intervals(table, with_ends(name), digits, described.factor)
+        return intervals(table, with_ends(name), digits, described.factor, sign)
     return numbers(table[name], f"{{:.{digits}f}}", described.factor)

@@ -29,10 +29,10 @@ from neural_shadows.reports.data.lights import light_name
 from neural_shadows.reports.data.quality_cells import metric_column
 from neural_shadows.reports.data.soft_costs import cost, describe_bytes, describe_times
 from neural_shadows.reports.data.soft_frames import SoftFrames, describe_trainings
-from neural_shadows.reports.data.table import Table, filled, numbers
+from neural_shadows.reports.data.table import Table, filled, numbers, with_ends
 from neural_shadows.sections.frame_tables import MethodsTable
 from neural_shadows.sections.sections import Sections
-from neural_shadows.settings.base import Name
+from neural_shadows.settings.base import Name, check_among
 from neural_shadows.settings.records import SoftTimes, Tuned, TunedRadius
 
 WITH_INTERVALS = ("mse", OFF_EDGES, "l1")
@@ -41,6 +41,7 @@ PARTS = ("mse_umbra", "mse_penumbra", "mse_lit", "mse_edge")
 SHARES = ("false_shadow", "light_leak")
 IMAGES = {"ssim": 3, "flip": 4, "lpips": 4}  # digits
 MEANS = (*PARTS, *SHARES, *IMAGES)
+DIFFERENCE = "off_edges_difference"
 FLICKER = (
     *(f"instability{of}" for of in (*sequences.SHOWN, "_reference")),
     *(f"temporal_error{of}" for of in (*sequences.SHOWN, "_reference")),
@@ -61,9 +62,17 @@ class Settings(MethodsTable):
     more_metrics: list[metric_in("soft")] = Field(
         [], description="further metrics of `metrics/kinds`, as columns"
     )
+    against: Name | None = Field(
+        None, description="the row whose paired differences to all others are given"
+    )
 
     def methods_shown(self) -> list[str]:
         return self.methods
+
+    def check(self, config: Sections, key: str) -> None:
+        super().check(config, key)
+        if self.against is not None:
+            check_among(f"{key}.against", self.against, self.methods)
 
     def resolved(self, config: Sections) -> dict[str, Any]:
         missing = [null for null in NULL if null not in self.methods]
@@ -86,6 +95,7 @@ def table(
     left_out: Sequence[str],
     unseen: Sequence[str],
     more_metrics: Sequence[str] = (),
+    against: str | None = None,
 ) -> Table:
     """Tabulate errors and costs by radius and method, in the order of `soft.labels`.
 
@@ -97,11 +107,14 @@ def table(
         left_out: labels of methods not available on this machine.
         unseen: scenes that no network trains on.
         more_metrics: further columns.
+        against: the method of paired differences; None for no differences.
     """
     about, labels, lpips = soft.about, soft.labels, read_json(lpips_json)
     times = read_json(soft_times) if soft_times else {"methods": {}}
     errors, radii, unit = soft.errors, soft.radii, soft.unit
-    table = soft_table(errors, radii, times, labels, unseen, more_metrics).assign(unit=unit)
+    table = soft_table(errors, radii, times, labels, unseen, more_metrics, against).assign(
+        unit=unit
+    )
     known = metrics()
     columns = {
         "light": [light_name(radius, unit) for radius in table["radius"]],
@@ -110,6 +123,9 @@ def table(
         known[OFF_EDGES].part: metric_column(table, OFF_EDGES, interval=True),
         "unseen scenes": metric_column(table, "mse", "mse_unseen"),
         "unseen, off edges": metric_column(table, OFF_EDGES, "off_edges_unseen"),
+        "difference, off edges": metric_column(
+            table, OFF_EDGES, DIFFERENCE, interval=True, sign="+"
+        ),
         **{known[name].part: metric_column(table, name) for name in PARTS},
         "PSNR dB ↑": metric_column(table, "psnr_pooled", digits=1),
         **{
@@ -138,6 +154,9 @@ def table(
         "a surface inside the light map. Surfaces facing away from the light's centre are dark for all "
         "methods but rays. FLIP and LPIPS are of the first frame of each part and the middle light.",
         *([ABOUT_EDGES] if table[OFF_EDGES].notna().any() else []),
+        *_describe_difference(
+            table, labels.get(against), "unseen scenes" if unseen else "all scenes"
+        ),
         *_describe_orders(table, radii, unit),
         *_describe_constants(chosen, labels),
         *describe_times(times),
@@ -157,12 +176,14 @@ def soft_table(
     labels: Mapping[str, str],
     unseen: Sequence[str],
     more_metrics: Sequence[str] = (),
+    against: str | None = None,
 ) -> pd.DataFrame:
     """Tabulate errors and costs by radius and method.
 
     Columns: `method, label, number` (of the radius, from 0), `radius, frames`, of `mse`, `mse_off_edges`
     and `l1` also the ends of their intervals, the other means, `psnr_pooled`, `mse_unseen`,
-    `off_edges_unseen`, `own_ms`, `map_ms`, `ms`, `bytes`, those of `_flicker`.
+    `off_edges_unseen`, `off_edges_difference` with its ends (see `_difference`), `own_ms`, `map_ms`, `ms`,
+    `bytes`, those of `_flicker`.
     """
     frames = errors[~errors["metric"].isin(FLICKER)]
     means = dict.fromkeys([*MEANS, *(n for n in more_metrics if n not in WITH_INTERVALS)])
@@ -180,9 +201,35 @@ def soft_table(
             new = own[own.index.isin(unseen)]
             row["mse_unseen"] = mean_over_scenes(new[new["metric"] == "mse"]["value"])
             row["off_edges_unseen"] = mean_over_scenes(new[new["metric"] == OFF_EDGES]["value"])
+            row |= _difference(of_light, method, against, unseen)
             rows.append(row | cost(times, method, number))
     table = pd.DataFrame(rows)
     return table.merge(_flicker(errors), on=["method", "number"], how="left")
+
+
+def _difference(
+    of_light: pd.DataFrame, method: str, against: str | None, unseen: Sequence[str]
+) -> dict[str, float]:
+    """A method's squared error off edges less that of `against` on the same frames, with its interval.
+
+    Of the unseen scenes where the frame set has them, else of all. NaN for `against` itself.
+    """
+    rows = of_light[of_light["metric"] == OFF_EDGES]
+    if unseen:
+        rows = rows[rows["scene"].isin(unseen)]
+    wide = rows.pivot(index=["scene", "part", "frame"], columns="method", values="value")
+    if method == against or not {method, against} <= {*wide}:
+        return dict.fromkeys(with_ends(DIFFERENCE), np.nan)
+    return mean_with_interval(wide[method] - wide[against], DIFFERENCE)
+
+
+def _describe_difference(table: pd.DataFrame, other: str | None, scenes: str) -> list[str]:
+    if table[DIFFERENCE].isna().all():
+        return []
+    return [
+        f"Difference: a method's squared error off edges less that of {other}, on the same frames of "
+        f"{scenes} [95 %, paired]. Above 0 the method errs more."
+    ]
 
 
 def _flicker(errors: pd.DataFrame) -> pd.DataFrame:
