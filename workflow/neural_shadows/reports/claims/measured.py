@@ -10,8 +10,8 @@ from neural_shadows.evaluation.null_predictors import NO_SHADOW
 from neural_shadows.reports.data.trained import THESIS_SAMPLES, Row, Trained
 from neural_shadows.settings.records import FrameTimes, SceneInfo, TrainingRecord
 
-# Training samples of networks by text: rays of the thesis, pixels of the papers. Own claims are
-# about methods without training.
+# Training samples of networks by text: rays of the thesis, pixels of the papers. Own claims are about
+# methods without training, or about networks as they are: their statements name the training.
 TEXT_SAMPLES = {
     "thesis": THESIS_SAMPLES,
     "nsm": 75 * 400 * 2048 * 1024,  # epochs of up to 400 images [4]

@@ -73,7 +73,8 @@ def table(soft: TrainedFrames) -> Table:
         "TAA stands behind single frames, in the place of such a history: each frame averaged with "
         "the one before, at points seen in both, as in the text. Recursive, as engines have it: a "
         "tenth of each frame is added to what was shown before, clipped to one standard deviation "
-        f"about the mean of 3 × 3 pixels, after the mean of {REST} frames at rest where rays differ.",
+        "about the mean of 3 × 3 pixels; where rays differ it begins with the mean of the first frame "
+        f"and {REST} at rest. Filters behind TAA have their constants for single frames.",
         "Edges: within 3 pixels of a point light's shadow edges, in test frames, of all lights. Edge "
         "width: how sharp a point light's edges are; the area with visibilities of 10 to 90 % near "
         "them, × 1.25, over their length, where the picture has an edge, too; about 8 at most.",
