@@ -13,7 +13,7 @@ from shipped import shipped
 
 # Files of a kind by folder: its own are all that it takes.
 FILES = {
-    "evaluation/methods": 1,  # soft and hard
+    "evaluation/methods": 2,  # one for soft and hard, a filter of rays
     "metrics/kinds": 1,
     "networks/object_space": 1,  # the class of the one in `kinds`
     "networks/object_space/kinds": 1,
@@ -75,7 +75,8 @@ def test_kinds_of_the_documentation(finished, tmp_path):
     assert len(sizes) == 2 and (sizes["faces"] > 0).all()
     assert (finished.folder / TARGETS[1]).stat().st_size > 5000
     dim = pd.read_csv(finished.folder / TARGETS[2])
-    assert {"hard", "dimmed", "doubling", "no_shadow"} <= {*dim["method"]}
+    assert {"hard", "dimmed", "rt_4_box", "doubling", "no_shadow"} <= {*dim["method"]}
+    assert dim[dim["method"].eq("rt_4_box")]["bytes"].eq(0).all()
     views = pd.read_csv(finished.folder / TARGETS[3])
     assert {"32 sines", "Dimmed", "No shadow"} <= {*views["method"]}
     assert dim["worst"].between(0, 1).all() and dim["worst"].max() > 0.5

@@ -68,7 +68,7 @@ def claim(pair, **changes):
         (PAIR, {}, verdicts.SUPPORTED, "at 0.2 m of PCSS"),
         (PAIR[::-1], {}, verdicts.CONTRADICTED, "against PCSS"),
         (PAIR, {"noise": 0.05}, verdicts.UNDECIDED, ""),
-        (PAIR, {"frames": 6}, verdicts.TOO_SMALL, "6 frames are too few"),
+        (PAIR, {"frames": 6}, verdicts.TOO_SMALL, "6 frames are too few: it takes 10"),
         (PAIR, {"frames": 16, "scenes": 1}, verdicts.SUPPORTED, "] over 16 frames in 1 scene"),
         (PAIR, {"frames": 16, "scenes": 4}, verdicts.SUPPORTED, "] over 16 frames in 4 scenes"),
         (PAIR, {"frames": 16, "scenes": 8}, verdicts.SUPPORTED, "] over 8 scenes"),

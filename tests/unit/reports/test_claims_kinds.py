@@ -235,7 +235,9 @@ def test_few_views_or_frames_decide_nothing():
     ]
     assert {outcome["verdict"] for outcome in outcomes} == {verdicts.TOO_SMALL}
     reasons = [outcome["reason"] for outcome in outcomes]
-    assert reasons == ["9 views are too few"] * 2 + ["5 frames are too few"]
+    assert reasons == ["9 views are too few: it takes 10"] * 2 + [
+        "5 frames are too few: it takes 6"
+    ]
 
 
 def test_violations_of_a_network_that_draws_no_shadow_decide_nothing():

@@ -28,3 +28,5 @@ def test_a_bar_or_a_line_s_end_in_a_label_shifts_no_cell(tmp_path):
 def test_cells_by_a_format_and_by_a_function():
     assert number_cells([1.5, float("nan")], "{:.2f}") == ["1.50", ""]
     assert number_cells([2.0], str, 10) == ["20.0"]
+    # What is rounded to 0 has no sign.
+    assert number_cells([-0.001, 0.2, -2], "{:+.1f} dB") == ["+0.0 dB", "+0.2 dB", "-2.0 dB"]

@@ -277,7 +277,8 @@ def _comparison(
     scenes = gain.index.get_level_values("scene").to_numpy()
     count, kinds = len(set(scenes)), len(set(kinds_of(scenes)))
     if kinds < FEWEST_SCENES and len(gain) < FEWEST_VIEWS:
-        return Comparison(**fields, untested=f"{len(gain)} frames are too few")
+        few = f"{len(gain)} frames are too few: it takes {FEWEST_VIEWS}, or {FEWEST_SCENES} kinds of scenes"
+        return Comparison(**fields, untested=few)
     units = f"{len(gain)} frames in {count} scene{'s' * (count > 1)}"
     if kinds >= FEWEST_SCENES:
         units = count_scenes([*set(scenes)])

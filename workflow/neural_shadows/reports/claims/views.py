@@ -161,7 +161,7 @@ def comparison(pair: Sequence[Row], name: str, data: Measured) -> Comparison:
         "samples": budgets[-1].samples,
     }
     if fewest < FEWEST_VIEWS:
-        return Comparison(**fields, untested=f"{fewest} views are too few")
+        return Comparison(**fields, untested=f"{fewest} views are too few: it takes {FEWEST_VIEWS}")
     values, advantage, groups = _arranged(pair, name, a, b)
     value, low, high, _ = two_way_interval(values.mean(0, keepdims=True), advantage, groups)
     errors = [

@@ -1,6 +1,7 @@
 """A table: numbers, formatted columns and notes."""
 
 import json as json_text
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -173,8 +174,8 @@ def filled(columns: Mapping[str, Column | Iterable[str]]) -> dict[str, Column | 
 def number_cells(
     values: Iterable[float], form: str | Callable[[float], str], factor: float = 1
 ) -> list[str]:
-    """Texts of numbers in a format, `{:.2f}`, or by a function; empty for NaN."""
-    text = form.format if isinstance(form, str) else form
+    """Texts of numbers in a format, `{:.2f}`, or by a function; empty for NaN, a rounded 0 without a sign."""
+    text = re.sub(r"{:\+?", r"\g<0>z", form, count=1).format if isinstance(form, str) else form
     return ["" if np.isnan(value) else text(value * factor) for value in values]
 
 
@@ -204,6 +205,6 @@ def intervals(
     """
     triples = table[list(columns)].to_numpy(float) * factor
     values = number_cells(triples[:, 0], f"{{:{sign}.{decimals}f}}")
-    form = f" [{{:.{decimals}f}}, {{:.{decimals}f}}]"
+    form = f" [{{:z.{decimals}f}}, {{:z.{decimals}f}}]"
     ends = ["" if np.isnan(pair).any() else form.format(*pair) for pair in triples[:, 1:]]
     return Column(values, triples[:, 0], ends, triples[:, 1:])

@@ -292,8 +292,10 @@ def _describe_constants(chosen: Mapping[str, Tuned], labels: Mapping[str, str]) 
         sentences.append(f"{sentence}.")
     if not sentences:
         return []
-    tried = {name for record in chosen.values() for name in record["candidates"]}
-    zeros = [text for name, text in _ZEROS.items() if name in tried]
+    zero = {
+        name for each in chosen.values() for name, tried in each["candidates"].items() if 0 in tried
+    }
+    zeros = [text for name, text in _ZEROS.items() if name in zero]
     return ["Constants are the best on validation frames.", *sentences, *zeros]
 
 

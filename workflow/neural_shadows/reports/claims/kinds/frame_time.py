@@ -91,7 +91,7 @@ def _comparison(claim: Claim, pair: Sequence[Row], data: Measured) -> Comparison
     ratios = (own[0] + overhead) / (own[1] + overhead)
     low, high = scipy.stats.quantile_test(ratios).confidence_interval(0.95)
     if np.isnan([low, high]).any():  # of five frames or fewer
-        return Comparison(**fields, untested=f"{len(ratios)} frames are too few")
+        return Comparison(**fields, untested=f"{len(ratios)} frames are too few: it takes 6")
     with_rest = f", with {overhead:g} ms beside the method" if overhead else ""
     below = scipy.stats.quantile_test(ratios, q=lower, alternative="less").pvalue
     above = scipy.stats.quantile_test(ratios, q=upper, alternative="greater").pvalue

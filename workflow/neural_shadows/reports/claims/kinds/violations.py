@@ -106,7 +106,8 @@ def _comparison(label: str, row: Row, data: Measured, names: Sequence[str]) -> C
         "violated upper one"
     )
     if len(frames[0]) < FEWEST_VIEWS:
-        return Comparison(**fields, untested=f"{len(frames[0])} views are too few")
+        few = f"{len(frames[0])} views are too few: it takes {FEWEST_VIEWS}"
+        return Comparison(**fields, untested=few)
     groups = frames[0].index.get_level_values("view_set")
     return Comparison(**fields, **judged(*two_way_interval(counts, _excess, groups)))
 
