@@ -2,9 +2,12 @@
 
 import numpy as np
 
+from neural_shadows.denoising.ffx import PASSES as FFX_PASSES
 from neural_shadows.denoising.ffx import FfxFilter
 from neural_shadows.denoising.sigma import SigmaFilter
+from neural_shadows.denoising.svgf import PASSES as SVGF_PASSES
 from neural_shadows.denoising.svgf import SvgfFilter
+from neural_shadows.denoising.trials import smooth
 
 HEIGHT, WIDTH = 40, 56
 COLUMNS = np.broadcast_to(np.arange(WIDTH), (HEIGHT, WIDTH))
@@ -32,13 +35,13 @@ def two_walls(edge):
 def svgf(visibility, depth, normal):
     filter_ = SvgfFilter(*depth.shape)
     filter_.see(depth, normal)
-    return filter_.smooth(visibility, filter_.variance(visibility, visibility * visibility))[1]
+    return smooth(filter_, visibility, filter_.noise(visibility), SVGF_PASSES)[1]
 
 
 def ffx(visibility, depth, normal):
     filter_ = FfxFilter(*depth.shape)
     filter_.see(depth, normal)
-    return filter_.smooth(visibility, 3 * filter_.neighbourhood(visibility)[1])[1]
+    return smooth(filter_, visibility, filter_.noise(visibility), FFX_PASSES)[1]
 
 
 def seen_by_sigma(filter_, depth, normal):

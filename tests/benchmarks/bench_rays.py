@@ -20,7 +20,7 @@ from neural_shadows.rays.labels import SECOND_HIT_STEP
 from neural_shadows.rays.ray_set import RaySet
 from neural_shadows.rays.sample_rays import sample_rays
 from neural_shadows.rays.silhouette import silhouette
-from neural_shadows.rendering.light_samples import random_shifts, ring_vectors
+from neural_shadows.rendering.light_samples import random_shifts, ring_vectors, sequence_run
 from neural_shadows.rendering.surface import see_surface
 from neural_shadows.scenes.embree_packets import EmbreePackets
 from neural_shadows.scenes.tracing import NEARLY_ALL, EmbreeSingly, Tracer
@@ -69,7 +69,9 @@ def packet_rows(quick: bool) -> list[Row]:
         for samples in SAMPLES:
             to_light = np.empty((len(starts), samples, 3), np.float32)
             light = setting.centre, np.array([radius]), np.array([samples])
-            ring_vectors(starts, random_shifts(surface.pixel, 1), 0, *light, to_light)
+            ring_vectors(
+                starts, random_shifts(surface.pixel, 1), sequence_run(0, samples), *light, to_light
+            )
             points = np.repeat(starts, samples, axis=0)
             stage = f"shadow rays, light of {radius} m, {samples} a pixel"
             add(stage, "occluded", points, to_light.reshape(-1, 3), NEARLY_ALL)

@@ -12,7 +12,7 @@ import torch
 from PIL import Image
 from soft_viewer_page import NETWORKS, frame_of, images_of, make_soft_viewer
 
-from neural_shadows.denoising.ffx import FfxFilter
+from neural_shadows.denoising.ffx import FfxTrials
 from neural_shadows.evaluation.method import visibility
 from neural_shadows.evaluation.method_parts import scene_fields
 from neural_shadows.evaluation.methods import object_cones, pcf, pcss
@@ -135,7 +135,7 @@ def test_classic_methods(page, data, frame, share):
         ),
         "rays_2": rays,
         "truth": image(frame, ray_traced(frame, radius, samples=RAYS if radius else 1)),
-        "rays_2_ffx": FfxFilter(HEIGHT, WIDTH).single(even, frame.surface),
+        "rays_2_ffx": FfxTrials(HEIGHT, WIDTH).single(even, frame.surface),
     }
     for key, values in expected.items():
         assert_alike(answers(page, key, asked(data, share)), values, key)

@@ -5,7 +5,7 @@ import sphere_light as exact
 import trimesh
 from shapes import scene_of
 
-from neural_shadows.rendering.light_samples import random_shifts, ring_vectors
+from neural_shadows.rendering.light_samples import random_shifts, ring_vectors, sequence_run
 
 SAMPLES = 4096
 
@@ -26,7 +26,9 @@ def test_our_rays(measured):
     points[:, 0] = exact.X
     ways = np.empty((exact.POINTS, SAMPLES, 3), np.float32)
     light = exact.LIGHT, np.array([exact.LIGHT_RADIUS]), np.array([SAMPLES])
-    ring_vectors(points, random_shifts(np.arange(exact.POINTS), 1), 0, *light, ways)
+    ring_vectors(
+        points, random_shifts(np.arange(exact.POINTS), 1), sequence_run(0, SAMPLES), *light, ways
+    )
     free = ~scene.tracer.blocked(np.repeat(points, SAMPLES, axis=0), ways.reshape(-1, 3))
     found = free.reshape(exact.POINTS, SAMPLES).mean(1)
     expected = np.array([exact.seen_of_disc(x) for x in exact.X])

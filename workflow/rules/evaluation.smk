@@ -200,7 +200,7 @@ rule measure_sun_hours:
 rule fit_fields:
     input:
         parts=of(frame_sets.fitted_parts),
-        meshes=of(frame_sets.all_meshes),
+        meshes=of(frame_sets.tuned_meshes),
     output:
         fields_npz=PATHS.soft_fields(),
     log:
@@ -213,7 +213,8 @@ rule fit_fields:
         **usual(4000, minutes=60),
     params:
         code=lambda wildcards: code(
-            "evaluation/fit_fields", frame_sets.generators(LAYOUT, wildcards.frame_set)
+            "evaluation/fit_fields",
+            frame_sets.fitted_generators(LAYOUT, wildcards.frame_set),
         ),
     message:
         "Fitting fields to the objects of {wildcards.frame_set}"

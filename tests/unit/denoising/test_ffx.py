@@ -10,8 +10,9 @@ from plate_frames import WIDTH as COLS
 from plate_frames import plate_frame
 from scipy.ndimage import convolve, convolve1d
 
-from neural_shadows.denoising.ffx import FfxFilter, TemporalFfx
+from neural_shadows.denoising.ffx import FfxFilter, FfxTrials, TemporalFfx
 from neural_shadows.denoising.mixed_blocks import SIDE, Neighbourhoods
+from neural_shadows.denoising.trials import smooth
 from neural_shadows.rendering.reprojection import Reprojection
 
 
@@ -60,7 +61,7 @@ def test_the_passes_are_as_written(sigma):
     assert np.abs(found_mean - mean).max() < 1e-5
     assert np.abs(noise - np.maximum(mean - mean**2, 0)).max() < 1e-5
     first, *_, last = written_passes(light.astype(float), 3 * noise, depth, normal, sigma)
-    found = filter_.smooth(light, 3 * noise)
+    found = smooth(filter_, light, 3 * noise, 3)
     assert np.abs(first - light).mean() > 0.01 and np.abs(last - first).mean() > 0.003
     assert np.abs(found[0] - first).max() < 1e-3 and np.abs(found[1] - last).max() < 1e-3
 
@@ -87,10 +88,23 @@ def test_noise_over_time_and_a_sudden_change():
     rays = np.random.default_rng(0).random((12, ROWS, COLS)) < 0.5
     back = Reprojection(surface, surface)
     pictures = [temporal.next_frame(one.astype(np.float32), surface, back) for one in rays]
-    alone = FfxFilter(ROWS, COLS).single(rays[-1].astype(np.float32), surface)
+    alone = FfxTrials(ROWS, COLS).single(rays[-1].astype(np.float32), surface)
     assert np.std(pictures[-1]) < np.std(alone) / 1.5
     assert abs(pictures[-1].mean() - rays.mean()) < 0.02
     assert np.array_equal(temporal.next_frame(constant(1), surface, back), constant(1))
+
+
+def test_a_history_begins_anew_where_all_around_is_lit():
+    """As tiles that the original clears: what was dark there before is not remembered."""
+    surface = plate_frame().surface
+    back = Reprojection(surface, surface)
+    noise = (np.random.default_rng(2).random((ROWS, COLS)) < 0.5).astype(np.float32)
+    forgetful, begun = (TemporalFfx(ROWS, COLS, clamp=9.0) for _ in range(2))
+    for picture in (noise, constant(1), noise):
+        found = forgetful.next_frame(picture, surface, back)
+    for picture in (constant(1), noise):
+        expected = begun.next_frame(picture, surface, back)
+    assert np.array_equal(found, expected)
 
 
 def test_a_wall_of_one_pixel_in_width():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from plate_frames import HEIGHT, RADIUS, WIDTH, error, plate_frame, plate_truth
 
-from neural_shadows.denoising.ffx import FfxFilter, TemporalFfx
+from neural_shadows.denoising.ffx import FfxTrials, TemporalFfx
 from neural_shadows.denoising.sigma import SigmaFilter, TemporalSigma
 from neural_shadows.denoising.sigma_ffx import SigmaFfxTrials, TemporalSigmaFfx
 from neural_shadows.denoising.svgf import SvgfTrials
@@ -19,7 +19,7 @@ KINDS = {
 }
 ALONE = {
     "svgf": SvgfTrials,
-    "ffx": FfxFilter,
+    "ffx": FfxTrials,
     "sigma": SigmaFilter,
     "sigma_ffx": SigmaFfxTrials,
 }

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from plate_frames import RADIUS, plate_frame
 
+from neural_shadows.denoising.ffx import FfxTrials
 from neural_shadows.denoising.sigma_ffx import SigmaFfxTrials
 from neural_shadows.denoising.svgf import SvgfTrials
 
@@ -11,6 +12,10 @@ SETTINGS = {
     SvgfTrials: [
         {"sigma_luminance": sigma, "passes": passes}
         for sigma, passes in [(1, 5), (1, 2), (16, 2), (16, 3), (1, 3), (1, 0)]
+    ],
+    FfxTrials: [
+        {"sigma": sigma, "passes": passes}
+        for sigma, passes in [(1, 4), (1, 2), (2, 2), (2, 3), (1, 3), (1, 0)]
     ],
     SigmaFfxTrials: [
         {"sigma": sigma, "reach": reach}

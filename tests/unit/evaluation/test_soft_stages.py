@@ -270,10 +270,19 @@ def test_constants_that_are_searched_jointly_are_so_for_sequences(folder):
     """One after the other they can end where no other single one helps."""
     out, sequence = folder / "rt_1_svgf.json", folder / "validation_both_000.json"
     tune_stage([folder / "validation_000.json"], [], [], out, sequence=sequence, method="rt_1_svgf")
-    history, constants = json.loads(out.read_text())["history"], METHODS["rt_1_svgf"].constants
-    tried = [{name: each[name] for name in constants} for each in history["tried"]]
-    assert tried == [dict(zip(constants, values)) for values in product(*constants.values())]
+    history, method = json.loads(out.read_text())["history"], METHODS["rt_1_svgf"]
+    frames = [*measured_frames([sequence], [])]
+    names = [*method.constants, "share"]
+    share = history["constants"]["share"]
+    errors = {
+        values: in_motion(frames, method, [dict(zip(names, (*values, share)))] * len(RADII))
+        for values in product(*method.constants.values())
+    }
+    best = min(errors, key=lambda values: errors[values]["mse_sequence_off_edges"])
+    # The share of a new frame is searched before them, and after.
+    assert [each["share"] for each in history["tried"]] == [*method.of_history["share"]]
     assert history["error"] == min(each["mse"] for each in history["tried"])
+    assert tuple(history["constants"][name] for name in method.constants) == best
 
 
 def test_constants_for_sequences_are_chosen_with_the_history(folder):
@@ -281,17 +290,18 @@ def test_constants_for_sequences_are_chosen_with_the_history(folder):
     out, sequence = folder / "rt_1_ffx.json", folder / "validation_both_000.json"
     tune_stage([folder / "validation_000.json"], [], [], out, sequence=sequence, method="rt_1_ffx")
     record, method = json.loads(out.read_text()), frame_method("rt_1_ffx")
-    frames = [*measured_frames([sequence], [])]
+    assert record["of_history"] == {name: [*each] for name, each in method.of_history.items()}
+    frames, chosen = [*measured_frames([sequence], [])], record["history"]["constants"]
     errors = {
-        value: in_motion(frames, method, [{"sigma": value}] * len(RADII))
-        for value in method.constants["sigma"]
+        value: in_motion(frames, method, [chosen | {"clamp": value}] * len(RADII))
+        for value in method.of_history["clamp"]
     }
     best = min(errors, key=lambda value: errors[value]["mse_sequence_off_edges"])
-    assert record["history"]["constants"] == {"sigma": best}
+    assert chosen["clamp"] == best
     tried = [each["mse"] for each in record["history"]["tried"]]
     assert tried == [each["mse_sequence_off_edges"] for each in errors.values()]
     assert len(set(tried)) > 3  # the constant has an effect
-    assert sequence_constants_of(out, 3) == [{"sigma": best}] * 3
+    assert sequence_constants_of(out, 3) == [chosen] * 3
     assert [each["constants"] for each in record["radii"]] == constants_of(out)
     assert sequence_constants_of(None, 2) == [{}] * 2
     target = folder / "rt_1_ffx.csv", folder / "rt_1_ffx.npz"

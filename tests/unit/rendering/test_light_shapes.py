@@ -8,7 +8,7 @@ from checkout import ROOT
 from half_planes import CENTRE, visible
 
 from neural_shadows.rendering import light_shapes
-from neural_shadows.rendering.light_samples import random_shifts, ring_vectors
+from neural_shadows.rendering.light_samples import random_shifts, ring_vectors, sequence_run
 from neural_shadows.rendering.light_shape import SPHERE, light_shape
 from neural_shadows.rendering.light_shapes.sun import DISTANCE
 
@@ -58,7 +58,13 @@ def test_samples_of_a_rectangle_are_uniform():
     to_light = np.empty((2, 3 * count, 3), np.float32)
     points = np.array([[0, 0, 0], [3, 1, -2]], np.float32)
     PANEL.ring_vectors(
-        points, random_shifts(np.array([7, 8]), 3), 0, CENTRE, radii, np.full(3, count), to_light
+        points,
+        random_shifts(np.array([7, 8]), 3),
+        sequence_run(0, count),
+        CENTRE,
+        radii,
+        np.full(3, count),
+        to_light,
     )
     on_light = (to_light + points[:, None] - CENTRE).astype(float)
     assert np.abs(on_light[..., 1]).max() < 1e-6  # in its plane, from any point
@@ -78,7 +84,7 @@ def test_samples_of_a_rectangle_are_uniform():
     PANEL.ring_vectors(
         points[:1],
         random_shifts(np.array([9]), 1),
-        0,
+        sequence_run(0, count),
         CENTRE,
         np.array([0.4]),
         np.array([count]),
@@ -103,7 +109,7 @@ def test_a_sphere_is_the_default():
     arguments = (
         np.ones((5, 3), np.float32),
         random_shifts(np.arange(5), 2),
-        3,
+        sequence_run(3, 4),
         CENTRE,
         np.array([0.1, 0.3]),
     )

@@ -11,6 +11,9 @@ from neural_shadows.rendering.light_samples import (
     random_shifts,
     ring_shares,
     ring_vectors,
+    sequence_run,
+    spiral,
+    spiral_shifts,
 )
 from neural_shadows.rendering.soft_shadows import soft_visibility
 from neural_shadows.scenes.cameras import Camera
@@ -80,6 +83,37 @@ def test_even_shifts_fill_the_square_evenly_within_any_block():
         assert abs(np.corrcoef(block.T)[0, 1]) < 0.1
 
 
+def off_a_half_plane(samples, shifts):
+    """Squared error of the share of a disc beyond a line at any place and angle, × 10⁴."""
+    rng, points = np.random.default_rng(3), np.zeros((len(shifts), 3), np.float32)
+    to_light = np.empty((len(shifts), samples.shape[1], 3), np.float32)
+    light = CENTRE, np.array([1.0]), np.array([samples.shape[1]])
+    ring_vectors(points, shifts, samples, *light, to_light)
+    places = (to_light - CENTRE)[:, :, [0, 2]]
+    angle, at = rng.uniform(0, 2 * np.pi, len(shifts)), rng.uniform(-1, 1, len(shifts))
+    along = places @ np.stack([np.cos(angle), np.sin(angle)], 1)[..., None]
+    exact = (np.arccos(at) - at * np.sqrt(1 - at**2)) / np.pi
+    return 1e4 * np.mean(np.square((along[..., 0] > at[:, None]).mean(1) - exact))
+
+
+def test_a_spiral_errs_less_from_three_samples_on():
+    shifts = random_shifts(np.arange(20_000), 1)
+    errors = {
+        count: (
+            off_a_half_plane(sequence_run(0, count), shifts),
+            off_a_half_plane(spiral(count), spiral_shifts(shifts, 5, count)),
+        )
+        for count in (2, 3, 4, 8)
+    }
+    assert errors[2][0] < errors[2][1]
+    for count in (3, 4, 8):
+        assert errors[count][1] < 0.9 * errors[count][0]
+    # Another set in each frame.
+    sets = [spiral_shifts(shifts, frame, 4) for frame in range(8)]
+    assert all(np.abs(one - sets[0]).max() > 0.1 for one in sets[1:])
+    assert all(one[..., 1].max() < 1 / 4 for one in sets)
+
+
 def test_rings_add_up_to_the_disc():
     radii = np.array([0.1, 0.2, 0.4])
     shares = ring_shares(radii)
@@ -87,7 +121,15 @@ def test_rings_add_up_to_the_disc():
     assert np.allclose(shares[2], np.array([1, 3, 12]) / 16)
     points, count = np.zeros((1, 3), np.float32), np.full(3, 4096)
     to_light = np.empty((1, count.sum(), 3), np.float32)
-    ring_vectors(points, random_shifts(np.array([7]), 3), 0, CENTRE, radii, count, to_light)
+    ring_vectors(
+        points,
+        random_shifts(np.array([7]), 3),
+        sequence_run(0, 4096),
+        CENTRE,
+        radii,
+        count,
+        to_light,
+    )
     away = (to_light[0] - CENTRE).astype(float)
     assert np.abs(away[:, 1]).max() < 1e-6  # across the way to the centre
     radius = np.hypot(away[:, 0], away[:, 2]).reshape(3, -1)

@@ -21,6 +21,13 @@ def test_commit_is_named_and_changes_are_reported(tmp_path):
     git(tmp_path, "tag", "-a", "v1", "-m", "a release")
     head = git(tmp_path, "rev-parse", "HEAD")
     assert commit_of(tmp_path) == head
+    (tmp_path / "mesh.ply").touch()
+    (tmp_path / "config").mkdir()
+    assert commit_of(tmp_path) == head
+    # A user's own overlay is nobody's commit.
+    (tmp_path / "config/mine.yaml").touch()
+    assert commit_of(tmp_path) == f"{head} with uncommitted changes"
+    (tmp_path / "config/mine.yaml").unlink()
     (tmp_path / "file").write_text("two")
     assert commit_of(tmp_path) == f"{head} with uncommitted changes"
 

@@ -1,10 +1,13 @@
-"""A shadow denoiser like FidelityFX's: three passes of 3 × 3 taps, guided by the noise nearby.
+"""A shadow denoiser like FidelityFX's: passes of 3 × 3 taps, guided by the noise nearby.
 
 After AMD's FidelityFX Denoiser for shadows (SDK 1.1). "Like", because a pixel may have any number of
-rays, how far depths may differ is a share of theirs, a short history's variance is multiplied by up to 4
+rays, and so other than three passes, how far depths may differ is a share of theirs, a short history's variance is multiplied by up to 4
 in place of 16, and the power that ends it is left out: with it mean squared errors were 6 to 8 % larger.
 All on one thread.
 """
+
+from collections.abc import Iterator
+from itertools import count
 
 import numpy as np
 from numba import njit
@@ -12,6 +15,7 @@ from numba import njit
 from neural_shadows.denoising.decay import decayed
 from neural_shadows.denoising.history import History
 from neural_shadows.denoising.mixed_blocks import SIDE, Neighbourhoods
+from neural_shadows.denoising.trials import Trials, smooth
 from neural_shadows.rendering.reprojection import Reprojection
 from neural_shadows.rendering.surface import Surface
 
@@ -20,14 +24,14 @@ from neural_shadows.rendering.surface import Surface
 SIGMA = 4.0
 # Of a pixel's own depth, by how much another's may differ: of 0.01 to 1 the least error off edges.
 SIGMA_DEPTH = np.float32(0.02)
-STEPS = (1, 2, 4)  # pixels between the taps of each pass
+PASSES = 3  # their taps 1, 2, 4 … pixels apart
 _TAPS = np.array([1, 2 / 3], np.float32)  # by distance along an axis
 _ASLANT = np.float32(0.5)  # cosines of normals below it weigh 0, not 2e-10: their power is 32
 _LEAST = np.float32(1e-9)  # variance where there is none
 _BOOST = 4  # less the frames seen: what noise is multiplied by while they are few
-_LASTING = 8  # frames after which only `_NEW` of a frame is new
-_NEW = 0.05
-_CLAMP = 0.5  # standard deviations of its neighbourhood by which history may be off
+_LASTING = 8  # frames after which only `NEW` of a frame is new
+NEW = 0.05
+CLAMP = 0.5  # standard deviations of its neighbourhood by which history may be off
 _SURPRISE = 20.0  # squares of those, over which its count of frames falls to 1 / e
 
 
@@ -45,12 +49,7 @@ class FfxFilter:
         self._images = np.empty((4, height, width), np.float32)
 
     def see(self, depth: np.ndarray, normal: np.ndarray) -> None:
-        """Set the surface guiding the weights.
-
-        Args:
-            depth: (H, W) float32 along the camera's axis; 0 where there is no surface.
-            normal: (H, W, 3) float32, unit; 0 where there is no surface.
-        """
+        """See `PassFilter`."""
         self._guides[0] = depth
         self._guides[1:] = np.moveaxis(normal, 2, 0)
 
@@ -58,60 +57,81 @@ class FfxFilter:
         """Gaussian means over 17 × 17 pixels, and variances: (H, W) float32.
 
         Args:
-            visibility: (H, W) float32 in [0, 1]. Where it is 0 or 1 all around, the next `smooth`
-                leaves the picture as it is.
+            visibility: (H, W) float32 in [0, 1]. Where it is 0 or 1 all around, the next `passes`
+                leave the picture as it is.
         """
         self._nearby.see(visibility)
         mean = self._nearby.mean
         return mean, np.maximum(mean - mean * mean, 0)
 
-    def smooth(self, visibility: np.ndarray, variance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Smooth a picture (H, W) float32: after the first and last pass.
+    def noise(self, visibility: np.ndarray) -> np.ndarray:
+        """See `PassFilter`."""
+        return (_BOOST - 1) * self.neighbourhood(visibility)[1]
 
-        Args:
-            visibility: (H, W) float32 in [0, 1]. variance: (H, W) float32, of its noise.
-        """
+    def passes(self, visibility: np.ndarray, variance: np.ndarray) -> Iterator[np.ndarray]:
+        """See `PassFilter`."""
         light, spread, next_light, next_spread = self._images
         light[:], spread[:] = visibility, variance
         next_light[:], next_spread[:] = visibility, variance
-        for step in STEPS:
+        for step in count():
             _fill_next(
                 self._guides,
                 light,
                 spread,
                 self._nearby.mixed,
                 np.float32(1 / self.sigma),
-                step,
+                1 << step,
                 next_light,
                 next_spread,
             )
             light, next_light = next_light, light
             spread, next_spread = next_spread, spread
-            if step == STEPS[0]:
-                first = np.clip(light, 0, 1)
-        return first, np.clip(light, 0, 1)
+            yield np.clip(light, 0, 1)
+
+    def cleared(self) -> np.ndarray:
+        """Pixels of blocks that are dark or lit all around in the last `neighbourhood`, (H, W) bool."""
+        mixed = np.repeat(self._nearby.mixed, SIDE, axis=1)
+        return ~mixed[:, : self._nearby.mean.shape[1]]
+
+
+class FfxTrials(Trials):
+    """Pictures (height, width) without history, by any constants."""
+
+    def __init__(self, height: int, width: int):
+        super().__init__(FfxFilter(height, width))
 
     def single(
-        self, visibility: np.ndarray, surface: Surface, *, sigma: float | None = None
+        self,
+        visibility: np.ndarray,
+        surface: Surface,
+        *,
+        sigma: float = SIGMA,
+        passes: float = PASSES,
     ) -> np.ndarray:
-        """Smooth a picture (H, W) float32 without history; `sigma`: from now on, if given."""
-        self.sigma = self.sigma if sigma is None else sigma
-        self.see(surface.depth_image(), surface.image(surface.n))
-        _, noise = self.neighbourhood(visibility)
-        return self.smooth(visibility, (_BOOST - 1) * noise)[1]
+        """Smooth a picture (H, W) float32, see `Trials.after`; constants: see `TemporalFfx`."""
+        return self.after(visibility, surface, sigma, passes)
 
 
 class TemporalFfx:
     """The filter for a sequence of frames (height, width), given one by one.
 
-    The history is the output of a frame's first pass.
+    The history is the output of a frame's first pass. Where all around is dark or lit it begins anew.
 
     Args:
-        sigma: see SIGMA.
+        sigma: see SIGMA. passes: see PASSES. share: see NEW. clamp: see CLAMP.
     """
 
-    def __init__(self, height: int, width: int, sigma: float = SIGMA):
+    def __init__(
+        self,
+        height: int,
+        width: int,
+        sigma: float = SIGMA,
+        passes: float = PASSES,
+        share: float = NEW,
+        clamp: float = CLAMP,
+    ):
         self._spatial = FfxFilter(height, width, sigma)
+        self._passes, self._share, self._clamp = passes, share, clamp
         # The picture, the mean of rays, their squared deviations from it, and their number of frames.
         self._history = History()
 
@@ -131,32 +151,33 @@ class TemporalFfx:
         variance = (_BOOST - 1) * noise
         pixels, past = self._history.at(len(new), back)
         values = (image.ravel()[pixels] for image in (visibility, mean, noise))
-        new.reshape(len(new), -1)[:, pixels], variance.ravel()[pixels] = _added(past, *values)
-        new[0], last = self._spatial.smooth(new[0], variance)
+        new.reshape(len(new), -1)[:, pixels], variance.ravel()[pixels] = self._added(past, *values)
+        begun = self._spatial.cleared()
+        new[:2, begun], new[2, begun], new[3, begun] = visibility[begun], 0, 1
+        new[0], last = smooth(self._spatial, new[0], variance, self._passes)
         self._history.keep(new)
         return last
 
+    def _added(self, past, visibility, mean, noise) -> tuple[np.ndarray, np.ndarray]:
+        """Add a frame to the history: (4, m), see `__init__`; and variance (m,).
 
-def _added(past: np.ndarray, visibility: np.ndarray, mean: np.ndarray, noise: np.ndarray):
-    """Add a frame to the history: (4, m), see `TemporalFfx`; and variance (m,).
-
-    Args:
-        past: (4, m). visibility: (m,) of the frame's rays; mean, noise: (m,), see `neighbourhood`.
-    """
-    picture, average, squares, frames = past
-    frames = frames + 1
-    new_average = average + (visibility - average) / frames
-    squares = squares + (visibility - average) * (visibility - new_average)
-    over_time = squares / np.maximum(frames - 1, _LEAST)
-    near = _CLAMP * np.sqrt(noise)
-    clamped = np.clip(picture, mean - near, mean + near)
-    off = (picture - mean) / np.maximum(near, np.float32(1e-3))
-    frames = frames * np.exp(-off * off / _SURPRISE)
-    few = np.maximum(over_time, noise) * np.maximum(_BOOST - frames, 1)
-    variance = np.where(frames < _BOOST, few, over_time)
-    share = _NEW + (1 - _NEW) * np.sqrt(np.maximum(1 - frames / _LASTING, 0))
-    picture = clamped + share * (visibility - clamped)
-    return np.stack([picture, new_average, squares, frames]), variance
+        Args:
+            past: (4, m). visibility: (m,) of the frame's rays; mean, noise: (m,), see `neighbourhood`.
+        """
+        picture, average, squares, frames = past
+        frames = frames + 1
+        new_average = average + (visibility - average) / frames
+        squares = squares + (visibility - average) * (visibility - new_average)
+        over_time = squares / np.maximum(frames - 1, _LEAST)
+        near = np.float32(self._clamp) * np.sqrt(noise)
+        clamped = np.clip(picture, mean - near, mean + near)
+        off = (picture - mean) / np.maximum(near, np.float32(1e-3))
+        frames = frames * np.exp(-off * off / _SURPRISE)
+        few = np.maximum(over_time, noise) * np.maximum(_BOOST - frames, 1)
+        variance = np.where(frames < _BOOST, few, over_time)
+        share = self._share + (1 - self._share) * np.sqrt(np.maximum(1 - frames / _LASTING, 0))
+        picture = clamped + share * (visibility - clamped)
+        return np.stack([picture, new_average, squares, frames]), variance
 
 
 @njit(cache=True, nogil=True, fastmath=True, error_model="numpy")

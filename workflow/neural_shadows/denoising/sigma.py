@@ -23,8 +23,8 @@ _LONG = np.float32(32)  # pixels that sparse taps reach at most
 _DENSE = np.float32(8)  # weight of the dense taps' mean; of 2, 4, 8 and 16 about the best
 _PLANE = np.float32(2)  # pixels off a pixel's own plane, from which on others weigh nothing
 _LEAST = np.float32(1e-12)
-_FRAMES = 7  # of history at most
-_CLAMP = 3.0  # standard deviations of 5 × 5 pixels to which history is clamped
+SHARE = 0.125  # the least of a new frame: of seven of history
+CLAMP = 3.0  # standard deviations of 5 × 5 pixels to which history is clamped
 
 
 def _gaussian(r: np.ndarray) -> np.ndarray:
@@ -129,10 +129,18 @@ class TemporalSigma:
     The history is the output.
 
     Args:
-        reach: see REACH.
+        reach: see REACH. share: see SHARE. clamp: see CLAMP.
     """
 
-    def __init__(self, height: int, width: int, reach: float = REACH):
+    def __init__(
+        self,
+        height: int,
+        width: int,
+        reach: float = REACH,
+        share: float = SHARE,
+        clamp: float = CLAMP,
+    ):
+        self._frames, self._clamp = 1 / share - 1, clamp
         self._spatial = SigmaFilter(height, width, reach)
         self._history = History()  # the picture, and its number of frames
         self._frame = 0
@@ -154,9 +162,10 @@ class TemporalSigma:
         self._frame += 1
         pixels, (past, frames) = self._history.at(2, back)
         mean, deviation = (image.ravel()[pixels] for image in _nearby(picture))
-        clamped = np.clip(past, mean - _CLAMP * deviation, mean + _CLAMP * deviation)
+        near = np.float32(self._clamp) * deviation
+        clamped = np.clip(past, mean - near, mean + near)
         # Clamped history is of another shadow: its frames count as fewer.
-        frames = 1 + np.minimum(frames, _FRAMES) * (1 - np.abs(past - clamped))
+        frames = 1 + np.minimum(frames, np.float32(self._frames)) * (1 - np.abs(past - clamped))
         new = np.stack([picture, np.ones_like(picture)])
         flat = new.reshape(2, -1)
         flat[0, pixels] = clamped + (flat[0, pixels] - clamped) / frames

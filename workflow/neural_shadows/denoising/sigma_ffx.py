@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from neural_shadows.denoising.ffx import SIGMA, FfxFilter, TemporalFfx
+from neural_shadows.denoising.ffx import CLAMP, NEW, PASSES, SIGMA, FfxTrials, TemporalFfx
 from neural_shadows.denoising.sigma import REACH, SigmaFilter
 from neural_shadows.rendering.reprojection import Reprojection
 from neural_shadows.rendering.surface import Surface
@@ -19,7 +19,7 @@ class SigmaFfxTrials:
 
     def __init__(self, height: int, width: int):
         self._wide = SigmaFilter(height, width, alone=False)
-        self._fine = FfxFilter(height, width)
+        self._fine = FfxTrials(height, width)
         self._of: tuple[Any, ...] = ()
         self._picture: np.ndarray | None = None  # of the first filter
 
@@ -31,29 +31,39 @@ class SigmaFfxTrials:
         *,
         reach: float = REACH,
         sigma: float = SIGMA,
+        passes: float = PASSES,
     ) -> np.ndarray:
         """Smooth a picture (H, W) float32, not to be written to; see `SigmaFilter.smooth`.
 
         Args:
-            reach: see `SigmaFilter`. sigma: see `FfxFilter`.
+            reach: see `SigmaFilter`. sigma, passes: see `TemporalFfx`.
         """
         of = visibility, penumbra, surface, reach
         if len(self._of) < len(of) or any(a is not b for a, b in zip(of, self._of)):
             self._picture = self._wide.single(visibility, penumbra, surface, reach=reach)
             self._of = of
-        return self._fine.single(self._picture, surface, sigma=sigma)
+        return self._fine.single(self._picture, surface, sigma=sigma, passes=passes)
 
 
 class TemporalSigmaFfx:
     """Both filters for a sequence of frames (height, width); the second has the history.
 
     Args:
-        reach: see `SigmaFilter`. sigma: see `FfxFilter`.
+        reach: see `SigmaFilter`. sigma, passes, share, clamp: see `TemporalFfx`.
     """
 
-    def __init__(self, height: int, width: int, reach: float = REACH, sigma: float = SIGMA):
+    def __init__(
+        self,
+        height: int,
+        width: int,
+        reach: float = REACH,
+        sigma: float = SIGMA,
+        passes: float = PASSES,
+        share: float = NEW,
+        clamp: float = CLAMP,
+    ):
         self._wide = SigmaFilter(height, width, reach, alone=False)
-        self._fine = TemporalFfx(height, width, sigma)
+        self._fine = TemporalFfx(height, width, sigma, passes, share, clamp)
 
     def next_frame(
         self,

@@ -3,11 +3,12 @@
 import numpy as np
 
 from neural_shadows.denoising.history import History
-from neural_shadows.denoising.svgf import SvgfFilter
+from neural_shadows.denoising.svgf import PASSES, SIGMA_LUMINANCE, SvgfFilter
+from neural_shadows.denoising.trials import smooth
 from neural_shadows.rendering.reprojection import Reprojection
 from neural_shadows.rendering.surface import Surface
 
-ALPHA = 0.2  # the least share of a new frame, of values and moments (Schied et al. 2017, 4.1)
+SHARE = 0.2  # the least share of a new frame, of values and moments (Schied et al. 2017, 4.1)
 _ENOUGH = 4  # frames from which a variance over time is taken instead of one over pixels (4.2)
 
 
@@ -17,11 +18,19 @@ class TemporalFilter:
     The history is the output of a frame's first pass (4.3).
 
     Args:
-        constants: see `SvgfFilter`.
+        sigma_luminance: see SIGMA_LUMINANCE. passes: see PASSES. share: see SHARE.
     """
 
-    def __init__(self, height: int, width: int, **constants: float):
-        self._spatial = SvgfFilter(height, width, **constants)
+    def __init__(
+        self,
+        height: int,
+        width: int,
+        sigma_luminance: float = SIGMA_LUMINANCE,
+        passes: float = PASSES,
+        share: float = SHARE,
+    ):
+        self._spatial = SvgfFilter(height, width, sigma_luminance)
+        self._passes, self._share = passes, np.float32(share)
         # The picture, its mean, its mean square, and their number of frames.
         self._history = History()
 
@@ -41,7 +50,7 @@ class TemporalFilter:
         over_time = np.maximum(square - mean * mean, 0)
         over_pixels = self._spatial.variance(mean, square)
         variance = np.where(frames >= _ENOUGH, over_time, over_pixels)
-        new[0], last = self._spatial.smooth(picture, variance)
+        new[0], last = smooth(self._spatial, picture, variance, self._passes)
         self._history.keep(new)
         return last
 
@@ -52,7 +61,7 @@ class TemporalFilter:
         """
         pixels, (*old, frames) = self._history.at(len(new), back)
         frames = np.rint(frames) + 1
-        share = np.maximum(np.float32(ALPHA), 1 / frames)
+        share = np.maximum(self._share, 1 / frames)
         flat = new.reshape(len(new), -1)
         for image, past in zip(flat, old):
             image[pixels] = past + share * (image[pixels] - past)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from neural_shadows.errors import InputError
 from neural_shadows.evaluation.look import Look
 
 if TYPE_CHECKING:  # the graph needs metadata alone
@@ -47,6 +48,7 @@ class Method:
         sizes: allowed N; empty of a method without one.
         stored_bytes: of a size, in a file as in memory; None if it stores nothing.
         exact: the reference itself.
+        of_history: the candidates of further constants of `sequence`.
         joint: constants are searched jointly, and of equal errors the smallest are chosen; else one
             after another, and the first. rounds: of those searches, in which all are chosen anew.
         tuned_as: key of the method with its constants, if not its own.
@@ -79,6 +81,7 @@ class Method:
     sun: Callable[..., OfBias] | None = None
     sizes: range = range(0)
     stored_bytes: Callable[[int], int] | None = None
+    of_history: Mapping[str, Sequence[float]] = field(default_factory=dict)
     exact: bool = False
     joint: bool = False
     rounds: int = 1
@@ -99,6 +102,13 @@ class Method:
     last: "Callable[..., np.ndarray] | None" = None
     of_last: tuple[str, ...] = ()
     resolution: int | None = None
+
+    def __post_init__(self):
+        for name, values in (*self.constants.items(), *self.of_history.items()):
+            if not isinstance(values, Sequence) or not values:
+                raise ValueError(
+                    f"{self.label}: the candidates of {name} are {values!r}. List one or more"
+                )
 
     @property
     def answers_views(self) -> bool:
@@ -134,7 +144,11 @@ class Method:
 def visibility(
     method: Method, frame: "SoftFrame", radius: float, constants: Constants
 ) -> np.ndarray:
-    """A method's visibility at a frame's points, (n,) float32."""
+    """A method's visibility at a frame's points, (n,) float32.
+
+    Raises:
+        InputError: the method answers another number of values.
+    """
     if method.last is None:
         return _unfiltered(method, frame, radius, constants)
     own = {name: value for name, value in constants.items() if name not in method.of_last}
@@ -152,6 +166,11 @@ def _unfiltered(
     if method.resolution is not None:
         frame = frame.with_map_of(method.resolution)
     shares = method.answer(frame, radius, **constants)
+    if np.shape(shares) != frame.surface.pixel.shape:
+        raise InputError(
+            f"{method.label}: it answers {np.shape(shares)} numbers. Return one for each of the frame's "
+            f"{len(frame.surface.pixel)} surface points, as frame.surface.pixel counts them"
+        )
     if method.by_rays or method.of_buffers is not None:
         return shares
     return np.where(frame.cosines > 0, shares, np.float32(0))

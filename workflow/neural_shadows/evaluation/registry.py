@@ -12,6 +12,7 @@ from dataclasses import replace
 from functools import cache, partial
 from importlib.util import find_spec
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 from neural_shadows.evaluation.look import BLACK, Look
@@ -33,9 +34,24 @@ NETWORK_LOOK = Look(
     "Answers a whole frame from its buffers and the light's map.",
 )
 
-_FAMILIES = {
-    key: family for family in kinds("evaluation/methods").values() for key in family.METHODS
-}
+
+def _families() -> dict[str, ModuleType]:
+    """The family of each key.
+
+    Raises:
+        ValueError: two have the same.
+    """
+    families: dict[str, ModuleType] = {}
+    for family in kinds("evaluation/methods").values():
+        for key in family.METHODS:
+            if key in families:
+                files = " and ".join(Path(one.__file__).name for one in (families[key], family))
+                raise ValueError(f"evaluation/methods: {files} both have {key!r}. Rename one")
+            families[key] = family
+    return families
+
+
+_FAMILIES = _families()
 METHODS: dict[str, Method] = {key: family.METHODS[key] for key, family in _FAMILIES.items()}
 FRAME_METHODS = {key: method for key, method in METHODS.items() if method.answers_frames}
 """Methods of frames under an area light, by key."""

@@ -1,6 +1,6 @@
 """Stage: a method's constants of least error, on validation frames."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import product
@@ -42,13 +42,13 @@ def tune(
 
     Args:
         frames: validation frames of all scenes, or held-out views of one, which no evaluation uses.
-        sequence: on which a method with a history has its constants chosen once more, from those of the
-            middle radius on, for sequences alone; None of a method without.
+        sequence: on which a method with a history has its constants chosen once more, with `of_history`,
+            from those of the middle radius on, for sequences alone; None of a method without.
         meshes, weights, fields, scene, device, precision: see `Inputs`.
         constants_json: `candidates` by constant; by radius, as `radii`, the best `constants`, their
             `error`, `tried`, errors of the last constant's candidates or of all settings in order,
             by term, and `at_end`, the constants whose best value may lie beyond the candidates;
-            `history`, of a sequence: likewise.
+            `history`, of a sequence: likewise, and `of_history`, the candidates of its further constants.
         method: the method's key, without a bias.
 
     Raises:
@@ -65,11 +65,12 @@ def tune(
     about["candidates"] = {name: list(values) for name, values in tuned.constants.items()}
     if sequence:
         middle = by_radius[len(by_radius) // 2]["constants"]
-        about["history"] = {"constants": middle}
+        about["history"] = {"constants": middle | _middles(tuned.of_history)}
+        about["of_history"] = {name: list(values) for name, values in tuned.of_history.items()}
         frames_of_it = kind.open_frames(replace(inputs, frames=[sequence]))
         in_sequence = [*sequences_module().steps_of(frames_of_it)]
         errors = partial(_sequence_errors, in_sequence, tuned, f"the history {title}")
-        _search(tuned, [about["history"]], ["mse"], errors)
+        _search(tuned, [about["history"]], ["mse"], errors, of_history=True)
     searched = [("", best) for best in by_radius]
     searched += [(" over time", about["history"])] if sequence else []
     for when, best in searched:
@@ -84,6 +85,7 @@ def _search(
     begins: Sequence[dict[str, Any]],
     terms: Sequence[str],
     measure: Callable[[str, list[list[Constants]]], list[np.ndarray]],
+    of_history: bool = False,
 ) -> None:
     """Choose constants, of several lights at once, from the `constants` of each on; see `tune`.
 
@@ -92,11 +94,16 @@ def _search(
         terms: names of the terms of an error. measure: of what is searched, in words, and of the settings of
             each light, their errors (settings, terms) by light. No setting is measured twice: a constant
             after the first is tried at the value that it has, too, and later rounds repeat settings.
+        of_history: also those of `Method.of_history`, before all others and once more after them.
     """
-    candidates = method.constants
+    candidates, searched = {**method.constants}, _searched(method)
+    if of_history:
+        candidates |= method.of_history
+        further = [[name] for name in method.of_history]
+        searched = [*further, *searched, *further]
     ends = [dict.fromkeys(candidates, False) for _ in begins]
     known: list[dict[tuple[float, ...], np.ndarray]] = [{} for _ in begins]
-    for names in _searched(method):
+    for names in searched:
         grid = [dict(zip(names, values)) for values in product(*map(candidates.get, names))]
         tried = [[best["constants"] | values for values in grid] for best in begins]
         new = [[s for s in each if _key(s) not in errors] for each, errors in zip(tried, known)]
@@ -120,10 +127,12 @@ def _search(
 
 def _begin(method: Method) -> Constants:
     """Constants at which the search begins; see `tune`."""
-    return {
-        name: values[0 if name in method.of_last else len(values) // 2]
-        for name, values in method.constants.items()
-    }
+    first = {name: method.constants[name][0] for name in method.of_last}
+    return _middles(method.constants) | first
+
+
+def _middles(candidates: Mapping[str, Sequence[float]]) -> Constants:
+    return {name: values[len(values) // 2] for name, values in candidates.items()}
 
 
 def _searched(method: Method) -> list[list[str]]:

@@ -36,11 +36,11 @@ def tuned_files(layout: Layout, frame_set: str, group: str, method: str) -> dict
             "weights": layout.weights(method),
         }
     return {
-        "frames": frame_sets.validations(layout, frame_set),
+        "frames": frame_sets.tuned(layout, frame_set),
         "sequence": frame_sets.tuned_sequence(layout, frame_set)
         if frame_methods.has_history(method)
         else [],
-        "meshes": frame_sets.all_meshes(layout, frame_set),
+        "meshes": frame_sets.tuned_meshes(layout, frame_set),
         "weights": [],
         "fields": frame_methods.fields(layout, frame_set, method),
         "beside": frame_sets.tuned_arrays(layout, frame_set),
@@ -175,7 +175,8 @@ def modules(layout: Layout, stage: str, frame_set: str, methods: Iterable[str]) 
         imported.add(frame.module_file(frame.OF_SEQUENCES))
     networks = frame_methods.network_modules(layout, methods)
     imported |= {frame.module_file("screen_network_method") for _ in networks}
-    return imported | networks | frame_sets.modules(layout, frame_set)
+    of_frames = frame_sets.tuned_modules if stage == "tune" else frame_sets.modules
+    return imported | networks | of_frames(layout, frame_set)
 
 
 def timed_modules(layout: Layout, table: str, group: str) -> set[Path]:

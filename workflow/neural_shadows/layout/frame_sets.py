@@ -144,7 +144,7 @@ def measured_scenes(layout: Layout, frame_set: str) -> list[str]:
 
 def fitted_parts(layout: Layout, frame_set: str) -> list[str]:
     """Frames with scenes covered by the fields."""
-    uses = tests(layout, frame_set), validations(layout, frame_set), sequences(layout, frame_set)
+    uses = tests(layout, frame_set), tuned(layout, frame_set), sequences(layout, frame_set)
     return [part for parts in uses for part in parts]
 
 
@@ -166,8 +166,36 @@ def tested_arrays(layout: Layout, frame_set: str) -> list[str]:
 
 
 def tuned_arrays(layout: Layout, frame_set: str) -> list[str]:
-    """Arrays of a user's validation frames."""
+    """Arrays of a user's validation frames, on which constants are chosen."""
     return arrays(layout, frame_set, validations(layout, frame_set))
+
+
+def tuned_sets(layout: Layout, frame_set: str) -> list[str]:
+    """Frame sets on whose validation frames the constants of methods are chosen."""
+    settings = layout.frames(frame_set)
+    also = settings["tuned_also_on"] if settings["path"] is None else None
+    return [frame_set] if also is None else [frame_set, also]
+
+
+def tuned(layout: Layout, frame_set: str) -> list[str]:
+    """Parts on which the constants of methods are chosen."""
+    return [part for one in tuned_sets(layout, frame_set) for part in validations(layout, one)]
+
+
+def tuned_meshes(layout: Layout, frame_set: str) -> list[str]:
+    """`all_meshes`, with those of the other frames on which constants are chosen."""
+    sets = tuned_sets(layout, frame_set)
+    return list(dict.fromkeys(mesh for one in sets for mesh in all_meshes(layout, one)))
+
+
+def fitted_generators(layout: Layout, frame_set: str) -> set[Path]:
+    """Modules of the generators of all objects covered by the fields."""
+    return set().union(*(generators(layout, one) for one in tuned_sets(layout, frame_set)))
+
+
+def tuned_modules(layout: Layout, frame_set: str) -> set[Path]:
+    """`modules` of all frames on which constants are chosen."""
+    return set().union(*(modules(layout, one) for one in tuned_sets(layout, frame_set)))
 
 
 def all_meshes(layout: Layout, frame_set: str) -> list[str]:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from neural_shadows.rendering.light_samples import random_shifts
+from neural_shadows.rendering.light_samples import random_shifts, sequence_run
 from neural_shadows.rendering.light_shape import SPHERE, LightShape
 from neural_shadows.rendering.soft_shadows import OFFSET
 from neural_shadows.rendering.surface import Surface
@@ -31,7 +31,8 @@ def blockers(
     to_light = np.empty((len(starts), RAYS, 3), np.float32)
     counts = np.array([RAYS])
     shifts = random_shifts(surface.pixel[chosen], 1)
-    shape.ring_vectors(starts, shifts, 0, centre, np.array([radius]), counts, to_light)
+    samples = sequence_run(0, RAYS)
+    shape.ring_vectors(starts, shifts, samples, centre, np.array([radius]), counts, to_light)
     # As in the reference, only above the surface's plane: below it a ray meets the surface itself.
     above = np.einsum("ijk,ik->ij", to_light, surface.n_g[chosen]) > 0
     to_light = to_light.reshape(-1, 3)

@@ -11,6 +11,36 @@ from neural_shadows.rendering.perpendicular import perpendicular
 
 # The generalised golden ratio's plane sequence (Roberts 2018): any run of it is evenly spread.
 _GOLDEN = (0.7548776662466927, 0.5698402909980532)
+_SECTION = (5**0.5 - 1) / 2  # of a turn, between neighbours of a spiral (Vogel 1979)
+
+
+def sequence_run(first: int, count: int) -> np.ndarray:
+    """Samples of a sequence of any length: shares of a ring's area, and of a turn, (2, count) float64.
+
+    Args:
+        first: number of samples of the sequence drawn before.
+    """
+    numbers = first + np.arange(count) + 0.5
+    return np.stack([numbers * _GOLDEN[0] % 1, numbers * _GOLDEN[1] % 1])
+
+
+def spiral(count: int) -> np.ndarray:
+    """A whole set of samples, one in each of as many rings of equal area: see `sequence_run`.
+
+    It is shifted by `spiral_shifts`. Of 3 to 12 samples the shares of half-planes
+    that cover the light are off by a seventh to a third less than of `sequence_run` (squared), of two more.
+    """
+    numbers = np.arange(count)
+    return np.stack([numbers / count, numbers * _SECTION % 1])
+
+
+def spiral_shifts(shifts: np.ndarray, frame: int, count: int) -> np.ndarray:
+    """Shifts of a `spiral` of `count` samples by those of a sequence, elsewhere in each frame.
+
+    Args:
+        shifts: (n, rings, 2) in [0, 1).
+    """
+    return (shifts + frame * np.array(_GOLDEN)) % 1 / np.array([1, count])
 
 
 def ring_shares(radii: np.ndarray) -> np.ndarray:
@@ -64,19 +94,18 @@ def even_shifts(pixels, width):
 
 
 @njit(cache=True, nogil=True)
-def ring_vectors(points, shifts, first, centre, radii, counts, vectors):
+def ring_vectors(points, shifts, samples, centre, radii, counts, vectors):
     """Fill `vectors` (n, Σ counts, 3) from points to samples, by ring.
 
     Args:
         points: (n, 3) float32.
-        shifts: (n, rings, 2) in [0, 1), by which a point's sequence is turned and shifted in each ring.
-        first: number of samples of a ring drawn before, for all points.
+        shifts: (n, rings, 2) in [0, 1), by which a point's samples are turned and shifted in each ring.
+        samples: (2, largest count) of `sequence_run` or `spiral`, for all points and rings.
         centre: (3,) float64 of the light; radii: (K,) float64 of the rings' outer edges.
         counts: (K,) int64, samples of each ring.
     """
     # Angles are looked up and turned: a sine of each sample took half of the time.
-    numbers = first + np.arange(counts.max()) + 0.5
-    shares, angles = numbers * _GOLDEN[0] % 1, 2 * np.pi * (numbers * _GOLDEN[1] % 1)
+    shares, angles = samples[0], 2 * np.pi * samples[1]
     cosines, sines = np.cos(angles), np.sin(angles)
     for i in range(len(points)):
         x, y, z = (
@@ -109,18 +138,17 @@ def ring_vectors(points, shifts, first, centre, radii, counts, vectors):
 
 
 @njit(cache=True, nogil=True)
-def polygon_vectors(points, shifts, first, centre, corners, radii, counts, vectors):
+def polygon_vectors(points, shifts, samples, centre, corners, radii, counts, vectors):
     """Fill `vectors` (n, Σ counts, 3) from points to samples of a polygon, by ring.
 
     A ring lies between copies of the polygon, scaled about the centre.
 
     Args:
-        points, shifts, first, centre, radii, counts: see `ring_vectors`.
+        points, shifts, samples, centre, radii, counts: see `ring_vectors`.
         corners: (S, 3) float64, about the centre in turn, at radius 1; the triangles of the centre
             and two of them have equal areas, as those of a rectangle or a regular polygon.
     """
-    numbers = first + np.arange(counts.max()) + 0.5
-    shares, turns = numbers * _GOLDEN[0] % 1, numbers * _GOLDEN[1] % 1
+    shares, turns = samples
     for i in range(len(points)):
         index, inner = 0, 0.0
         for ring in range(len(radii)):

@@ -84,7 +84,7 @@ class LightShape(Model):
         self,
         points: np.ndarray,
         shifts: np.ndarray,
-        first: int,
+        samples: np.ndarray,
         centre: np.ndarray,
         radii: np.ndarray,
         counts: np.ndarray,
@@ -98,10 +98,10 @@ class LightShape(Model):
 
         corners = self.corners()
         if corners is None:
-            ring_vectors(points, shifts, first, centre, radii, counts, vectors)
+            ring_vectors(points, shifts, samples, centre, radii, counts, vectors)
         else:
             corners = corners / self._radius_of_one()
-            polygon_vectors(points, shifts, first, centre, corners, radii, counts, vectors)
+            polygon_vectors(points, shifts, samples, centre, corners, radii, counts, vectors)
 
 
 SPHERE = LightShape(shape="sphere")

@@ -11,7 +11,7 @@ import numpy as np
 from numba import njit
 from scipy.ndimage import maximum_filter, minimum_filter
 
-from neural_shadows.rendering.light_samples import random_shifts, ring_shares
+from neural_shadows.rendering.light_samples import random_shifts, ring_shares, sequence_run
 from neural_shadows.rendering.light_shape import SPHERE, LightShape
 from neural_shadows.rendering.surface import Surface, see_surface
 from neural_shadows.scenes.cameras import Camera
@@ -156,6 +156,7 @@ class _Place:
         points, count = self._points(pixels), samples
         counts = np.zeros(len(self.rings), np.int64)
         counts[ring] = samples
+        run = sequence_run(self.index * samples, samples)
         seen = np.ones(len(self.start), np.float32)
         size = max(1, _RAYS // count)
         to_light, starts = np.empty((2, size, count, 3), np.float32)
@@ -164,9 +165,7 @@ class _Place:
             start = np.take(self.start, part, axis=0)
             vectors, origins = to_light[: len(part)], starts[: len(part)]
             shifts = random_shifts(self.surface.pixel[part], len(self.rings))
-            self.shape.ring_vectors(
-                start, shifts, self.index * samples, self.centre, self.rings, counts, vectors
-            )
+            self.shape.ring_vectors(start, shifts, run, self.centre, self.rings, counts, vectors)
             origins[:] = start[:, None]
             normals = np.take(self.surface.n_g, part, axis=0)
             rays = origins.reshape(-1, 3), vectors.reshape(-1, 3)

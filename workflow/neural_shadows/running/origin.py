@@ -21,18 +21,21 @@ def describe_origin() -> dict[str, Any]:
 def commit_of(folder: Path) -> str:
     """Git commit of a folder, with a note on uncommitted changes.
 
-    A folder within another repository is not a checkout of that. An archive of a commit and a
+    Such as new files that results may come from: methods in `workflow`, overlays in `config`. A folder within another repository is not a checkout of that. An archive of a commit and a
     container have it in `workflow/COMMIT`.
     """
-    git = ["git", "-C", str(folder), "describe", "--always", "--exclude=*", "--abbrev=40"]
-    ceiling = {"GIT_CEILING_DIRECTORIES": str(folder.resolve().parent)}
+
+    def git(*arguments: str) -> str:
+        ceiling = {"GIT_CEILING_DIRECTORIES": str(folder.resolve().parent)}
+        command, quiet = ["git", "-C", str(folder), *arguments], subprocess.DEVNULL
+        env = os.environ | ceiling
+        return subprocess.check_output(command, env=env, stderr=quiet, text=True).strip()
+
+    changed = " with uncommitted changes"
     try:
-        return subprocess.check_output(
-            [*git, "--dirty= with uncommitted changes"],
-            env=os.environ | ceiling,
-            stderr=subprocess.DEVNULL,
-            text=True,
-        ).strip()
+        commit = git("describe", "--always", "--exclude=*", "--abbrev=40", f"--dirty={changed}")
+        new = git("ls-files", "--others", "--exclude-standard", "--", "workflow", "config")
+        return commit + changed * bool(new and not commit.endswith(changed))
     except (OSError, subprocess.CalledProcessError):
         archived = folder / "workflow/COMMIT"
         commit = archived.read_text(encoding="utf-8").strip() if archived.is_file() else ""

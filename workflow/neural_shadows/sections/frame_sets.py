@@ -113,6 +113,11 @@ class RenderedFrames(Model):
     # Constants by four frames of each of five scenes changed errors of 14 methods on test frames by −8 to +5 %,
     # 46 of 56 not at all, and searches took twice the time.
     validation: int = Field(2, ge=1, le=10_000, description="validation frames of each scene")
+    tuned_also_on: Name | None = Field(
+        None,
+        description="another frame set under the same lights, whose validation frames choose the constants of "
+        "methods, too",
+    )
     test: int = Field(2, ge=1, le=10_000, description="test frames of each scene")
     unseen_test: int | None = Field(
         None,

@@ -130,6 +130,7 @@ class Tuned(TypedDict, total=False):
     candidates: dict[str, list[float]]
     radii: list[TunedRadius]
     history: TunedRadius  # for sequences, of a method with a history
+    of_history: dict[str, list[float]]  # candidates of its further constants
 
 
 class FeatureShare(TypedDict):

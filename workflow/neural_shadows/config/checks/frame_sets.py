@@ -6,6 +6,7 @@ from typing import Any
 from neural_shadows.sections.frame_sets import VIEWS, RenderedFrames, measured_scenes
 from neural_shadows.sections.sections import Sections
 from neural_shadows.sections.views import Views
+from neural_shadows.settings.base import check_among
 
 
 def check(config: Sections) -> None:
@@ -33,12 +34,31 @@ def check(config: Sections) -> None:
                     f"frame_sets.{name}.unseen: {scene!r} has the generator {settings.generate!r} and "
                     "no object beyond those of `scenes`. Insert another object (`inserted`)"
                 )
+        if frames.tuned_also_on:
+            _check_tuned(config, name, frames)
         for first, second in combinations(measured_scenes(frames), 2):
             if _drawn_from(config, first) == _drawn_from(config, second):
                 raise ValueError(
                     f"frame_sets.{name}: {first!r} and {second!r} are the same scene. "
                     "Change the `seed` of one"
                 )
+
+
+def _check_tuned(config: Sections, name: str, frames: RenderedFrames) -> None:
+    """Check that frames for choosing constants have the same lights, and show no unseen scene."""
+    key, other = f"frame_sets.{name}.tuned_also_on", frames.tuned_also_on
+    rendered = [n for n, each in config.frame_sets.items() if isinstance(each, RenderedFrames)]
+    check_among(key, other, [n for n in rendered if n != name])
+    others = config.frame_sets[other]
+    for setting in ("radii", "radius_unit", "light"):
+        if getattr(frames, setting) != getattr(others, setting):
+            raise ValueError(
+                f"{key}: {other!r} has another `{setting}`. Choose a frame set under the same lights"
+            )
+    if seen := {*frames.unseen} & {*others.scenes}:
+        raise ValueError(
+            f"{key}: {other!r} shows {', '.join(sorted(seen))}, in `unseen` here. Choose another"
+        )
 
 
 def _drawn_from(config: Sections, scene: str) -> tuple[Any, ...]:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from neural_shadows.denoising.ffx import FfxFilter, TemporalFfx
+from neural_shadows.denoising.ffx import FfxTrials, TemporalFfx
 from neural_shadows.denoising.oidn import ANY_RANGE, open_image_denoise
 from neural_shadows.denoising.sigma import SigmaFilter, TemporalSigma
 from neural_shadows.denoising.sigma_ffx import SigmaFfxTrials, TemporalSigmaFfx
@@ -119,7 +119,7 @@ def _oidn(
 
 BY_KEY = {
     "svgf": Denoiser(_kept(SvgfTrials), TemporalFilter),
-    "ffx": Denoiser(_kept(FfxFilter), TemporalFfx),
+    "ffx": Denoiser(_kept(FfxTrials), TemporalFfx),
     "sigma": Denoiser(_kept(SigmaFilter), TemporalSigma, distances=True),
     "sigma_ffx": Denoiser(_kept(SigmaFfxTrials), TemporalSigmaFfx, distances=True),
     "oidn_fast": Denoiser(partial(_oidn, quality="fast")),

@@ -266,7 +266,10 @@ def tune(layout: Layout, frame_set: str, group: str, method: str) -> Work:
         if is_network(method):
             return Work(START, 2.0 * pixels) + _query(layout, method, pixels)
         return Work(LIGHT_START, 1.0 * pixels)
-    pixels = _pixels(layout, frame_set, frame_sets.validations(layout, frame_set))
+    pixels = sum(
+        _pixels(layout, one, frame_sets.validations(layout, one))
+        for one in frame_sets.tuned_sets(layout, frame_set)
+    )
     tuned = method_of(method)
     # Those of a last filter answer once.
     own = {name: values for name, values in tuned.constants.items() if name not in tuned.of_last}
@@ -279,6 +282,7 @@ def tune(layout: Layout, frame_set: str, group: str, method: str) -> Work:
     answers = tried * pixels * _lights(layout, frame_set)
     if frame_methods.has_history(method) and (length := layout.frames(frame_set)["sequence"]):
         of_history = math.prod(counts) if tuned.joint else sum(counts)
+        of_history += 2 * sum(map(len, tuned.of_history.values()))
         answers += of_history * SHARED_BY_A_HISTORY * (RUN_IN + length) * _size(layout, frame_set)
     return Work(LIGHT_START, 5.0 * pixels) + _answers(layout, method, answers)
 

@@ -286,9 +286,11 @@ def _describe_constants(chosen: Mapping[str, Tuned], labels: Mapping[str, str]) 
     """Describe each method's constants, and those at an end of their range."""
     sentences = []
     for method, record in chosen.items():
-        sentence = f"{labels[method]}, by radius: {_describe_choices(record, record['radii'])}"
+        names = [*record["candidates"]]
+        sentence = f"{labels[method]}, by radius: {_describe_choices(names, record['radii'])}"
         if "history" in record:
-            sentence += f"; over time: {_describe_choices(record, [record['history']])}"
+            names += record.get("of_history", ())
+            sentence += f"; over time: {_describe_choices(names, [record['history']])}"
         sentences.append(f"{sentence}.")
     if not sentences:
         return []
@@ -299,10 +301,10 @@ def _describe_constants(chosen: Mapping[str, Tuned], labels: Mapping[str, str]) 
     return ["Constants are the best on validation frames.", *sentences, *zeros]
 
 
-def _describe_choices(record: Tuned, choices: Sequence[TunedRadius]) -> str:
+def _describe_choices(names: Sequence[str], choices: Sequence[TunedRadius]) -> str:
     parts = [
         f"{name} " + ", ".join(f"{choice['constants'][name]:g}" for choice in choices)
-        for name in record["candidates"]
+        for name in names
     ]
     ends = sorted({name for choice in choices for name in choice["at_end"]})
     end = f" ({' and '.join(ends)} at an end of the range tried)" if ends else ""
