@@ -47,7 +47,7 @@ function rayMethod(count) {
   return {
     key: `rays_${count}`, name: count === 1 ? "1 ray" : `${count} rays`,
     *answer(renderer, state) {
-      return { texture: yield* renderer.rays(`rays_${count}`, state, count), channel: 0 };
+      return { texture: yield* renderer.rays(`rays_${count}`, state, count, { set: true }), channel: 0 };
     },
   };
 }
@@ -56,7 +56,7 @@ function filteredMethod(count) {
   return {
     key: `rays_${count}_ffx`, name: `${count === 1 ? "1 ray" : `${count} rays`}, filtered`,
     *answer(renderer, state) {
-      const rays = yield* renderer.rays(`even_rays_${count}`, state, count, { even: true }), { size, view } = state;
+      const rays = yield* renderer.rays(`even_rays_${count}`, state, count, { even: true, set: true }), { size, view } = state;
       const [row, means, even, odd] = ["row", "means", "even", "odd"].map(
         (name) => renderer.target(`ffx_${count}_${name}`, [BITS], ...size));
       renderer.fill(["means_frag"], row, { picture: rays, way: [1, 0] });

@@ -138,9 +138,10 @@ class Renderer {
 
   // Sends rays until a pixel has `count`, some at a time; goes on where an earlier call of this name
   // stopped. Gives the texture of rays.frag.
-  *rays(name, state, count, { penumbrae = false, open = false, even = false } = {}) {
+  *rays(name, state, count, { penumbrae = false, open = false, even = false, set = false } = {}) {
     const { view, light: { centre, radius }, move, size } = state;
     const goal = radius > 0 ? count : 1; // to a point all rays are the same
+    const whole = set && goal > 2 ? goal : 0; // as frames/ray_tracing.py: of two a sequence errs less
     const key = JSON.stringify([view, centre, radius, move, size, penumbrae, even]);
     const pair = [0, 1].map((k) => this.target(`${name}_${k}`, [BITS], ...size));
     let sent = this.kept[`${name}_1`] === undefined ? undefined : this.kept[name];
@@ -149,7 +150,7 @@ class Renderer {
       const more = Math.min(RAYS_AT_ONCE, goal - sent.count), [target, other] = [pair[1 - sent.side], pair[sent.side]];
       this.fill(["receiver", "numbers", "discs", "trees", "rays_frag"], target, {
         ...this.surfaces(state), ...this.rayUniforms(state, open), before: other.textures[0], centre, radius,
-        sceneSize: this.scene.size, first: sent.count, count: more, penumbrae, even,
+        sceneSize: this.scene.size, first: sent.count, count: more, whole, penumbrae, even,
       });
       sent = { key, count: sent.count + more, side: 1 - sent.side };
       this.kept[name] = sent;

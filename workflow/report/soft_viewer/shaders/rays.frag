@@ -5,12 +5,13 @@ uniform vec3 centre;
 uniform float sceneSize;
 uniform float radius;
 uniform int first, count; // rays before, and of this pass
+uniform int whole;        // rays of a pixel if they are a spiral's, 0 if a sequence's (rendering/light_samples.py)
 uniform bool penumbrae;   // asks for the first hits, not for any
 uniform bool even;        // rays of neighbours are spread evenly (rendering/light_samples.py)
 layout(location = 0) out uvec4 answer;
 
 // Fractions of the plane's golden ratio, in 32 bits (Roberts 2018).
-const uint SHARES = 3242174889u, TURNS = 2447445413u, SALT = 67108864u;
+const uint SHARES = 3242174889u, TURNS = 2447445413u, SALT = 67108864u, SECTION = 2654435769u;
 
 void main() {
   Receiver r;
@@ -26,8 +27,8 @@ void main() {
   float turn = 6.283185307 * fraction(even ? SHARES * column + TURNS * row : hashed(key));
   uint shift = even ? TURNS * column - SHARES * row : hashed(key + 1u);
   for (int k = first; k < first + count; k++) {
-    float share = fraction(uint(k) * SHARES + SHARES / 2u + shift);
-    float angle = turn + 6.283185307 * fraction(uint(k) * TURNS + TURNS / 2u);
+    float share = whole > 0 ? (float(k) + fraction(shift)) / float(whole) : fraction(uint(k) * SHARES + SHARES / 2u + shift);
+    float angle = turn + 6.283185307 * fraction(whole > 0 ? uint(k) * SECTION : uint(k) * TURNS + TURNS / 2u);
     vec3 way = towards + radius * sqrt(share) * (sides * vec2(cos(angle), sin(angle)));
     if (dot(r.face, way) <= 0.0) continue;
     float part = freeShare(start, way, !penumbrae);
