@@ -277,7 +277,7 @@ def tune(layout: Layout, frame_set: str, group: str, method: str) -> Work:
     # On frames a search tries nothing twice: of MSSM's constants a second round half as many settings as the first.
     one_by_one = (1 + sum(counts) - len(counts) + bool(tuned.of_last)) * (1 + tuned.rounds) / 2
     tried = math.prod(counts) if tuned.joint else one_by_one
-    if "passes" in tuned.constants:
+    if "passes" in tuned.constants and tuned.joint:
         tried /= SHARED
     answers = tried * pixels * _lights(layout, frame_set)
     if frame_methods.has_history(method) and (length := layout.frames(frame_set)["sequence"]):
