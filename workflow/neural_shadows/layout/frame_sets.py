@@ -178,8 +178,13 @@ def tuned_sets(layout: Layout, frame_set: str) -> list[str]:
 
 
 def tuned(layout: Layout, frame_set: str) -> list[str]:
-    """Parts on which the constants of methods are chosen."""
-    return [part for one in tuned_sets(layout, frame_set) for part in validations(layout, one)]
+    """Parts on which the constants of methods are chosen: of another frame set each scene's first."""
+    parts_of_others = [
+        parts(layout, scene, one, "validation")[0]
+        for one in tuned_sets(layout, frame_set)[1:]
+        for scene in tuned_scenes(layout, one)
+    ]
+    return validations(layout, frame_set) + parts_of_others
 
 
 def tuned_meshes(layout: Layout, frame_set: str) -> list[str]:

@@ -266,10 +266,10 @@ def tune(layout: Layout, frame_set: str, group: str, method: str) -> Work:
         if is_network(method):
             return Work(START, 2.0 * pixels) + _query(layout, method, pixels)
         return Work(LIGHT_START, 1.0 * pixels)
-    pixels = sum(
-        _pixels(layout, one, frame_sets.validations(layout, one))
-        for one in frame_sets.tuned_sets(layout, frame_set)
-    )
+    pixels = _pixels(layout, frame_set, frame_sets.validations(layout, frame_set))
+    for other in frame_sets.tuned_sets(layout, frame_set)[1:]:
+        parts = [part for part in frame_sets.tuned(layout, frame_set) if f"/{other}/" in part]
+        pixels += _pixels(layout, other, parts)
     tuned = method_of(method)
     # Those of a last filter answer once.
     own = {name: values for name, values in tuned.constants.items() if name not in tuned.of_last}
