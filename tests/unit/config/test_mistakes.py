@@ -119,6 +119,9 @@ frame_sets.views | {path: mine} | frame_sets.views: only `views` holds views of 
 frame_sets.mine | {width: 600, height: 400, views_per_set: 24, batch: 12} | frame_sets.mine: only `views` holds
 frame_sets.frames.scenes | [rom] | frame_sets.frames.scenes.0: 'rom' (did you mean 'room'?) is not among
 frame_sets.frames.unseen | [hall] | frame_sets.frames: unseen: hall is also in `scenes`
+frame_sets.frames.tuned_also_on | layouts | frame_sets.frames.tuned_also_on: 'layouts' has another `radii`
+frame_sets.frames.tuned_also_on | frames | frame_sets.frames.tuned_also_on: 'frames' is not among
+frame_sets.windows.unseen | [groves, garden, workshop, stairs, blinds, tree] | frame_sets.windows.tuned_also_on: 'layouts' shows groves, in `unseen` here
 experiments.nsm_plain | {network: nsm, training: nsm_plain, frame_set: frames, scenes: [room_dragon], label: Other} | 'nsm_plain' is trained on room_dragon, in `unseen` of frame_sets.nsm
 tables.soft_sun.methods | [pcss, nsm] | 'nsm' is trained on lights with radii in metres, and frame_sets.sun has them in degrees
 frame_sets.frames.unseen | [room] | frame_sets.frames.unseen: 'room' has the generator 'room' and no object beyond

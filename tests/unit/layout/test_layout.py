@@ -45,6 +45,23 @@ def test_sequences_are_of_the_first_scene_or_of_those_named(desk):
     assert [part.split("/")[-2] for part in parts] == [name for name in moving for _ in range(4)]
 
 
+def test_constants_are_also_chosen_on_other_frames(desk):
+    """Of each scene of these the first part, with its generator; and nothing is tested there."""
+    files = evaluations.tuned_files(desk, "windows", ALL, "pcss")
+    own, others = [], []
+    for part in files["frames"]:
+        (own if "/windows/" in part else others).append(part.split("/")[-2:])
+    assert own == [[scene, "validation_000.json"] for scene in desk.frames("windows")["scenes"]]
+    assert others == [[scene, "validation_000.json"] for scene in desk.frames("layouts")["scenes"]]
+    tested = evaluations.evaluated_files(desk, "windows", ALL, "pcss")
+    assert not any("/layouts/" in part for part in tested["frames"])
+    modules = [
+        evaluations.modules(desk, kind, "windows", ["pcss"]) for kind in ("tune", "evaluate")
+    ]
+    grove = [any(module.stem == "grove" for module in each) for each in modules]
+    assert grove == [True, False]
+
+
 def test_parts_follow_each_other():
     assert [part_range(25, 3, part) for part in range(3)] == [(0, 8), (8, 16), (16, 25)]
     views = Views(width=64, height=64, views_per_set=25, batch=12, held_out_views=8)
