@@ -91,3 +91,27 @@ def test_an_even_mean_first_and_a_fifth_later():
     pictures_[1:] = 0
     seen = [svgf.next_frame(one, surface, back)[HEIGHT // 2, WIDTH // 2] for one in pictures_]
     assert seen == pytest.approx([1, 1 / 2, 1 / 3, 1 / 4, 1 / 5, 4 / 25], abs=1e-3)
+
+
+@pytest.mark.parametrize("key", ["svgf", "ffx"])
+def test_without_passes_a_picture_is_no_view_of_the_history(key):
+    surface, rng = plate_frame().surface, np.random.default_rng(4)
+    back, first = Reprojection(surface, surface), noisy(plate_truth(), rng)
+    found = []
+    for spoilt in (False, True):
+        filter_ = KINDS[key](HEIGHT, WIDTH, passes=0)
+        shown = filter_.next_frame(first.copy(), surface)
+        shown[:] = shown if not spoilt else 9
+        found.append(filter_.next_frame(first.copy(), surface, back))
+    assert np.array_equal(*found)
+
+
+def test_a_picture_without_history_is_still_smoothed_by_its_noise():
+    """Whose moments have a history: a share of 1 is of the picture alone."""
+    surface, rng = plate_frame().surface, np.random.default_rng(5)
+    back, truth = Reprojection(surface, surface), plate_truth()
+    svgf = TemporalFilter(HEIGHT, WIDTH, share=1.0)
+    for _ in range(8):
+        picture = noisy(truth, rng)
+        found = svgf.next_frame(picture, surface, back)
+    assert error(found, truth) < 0.3 * error(picture, truth)

@@ -18,8 +18,8 @@ SETTINGS = {
         for sigma, passes in [(1, 4), (1, 2), (2, 2), (2, 3), (1, 3), (1, 0)]
     ],
     SigmaFfxTrials: [
-        {"sigma": sigma, "reach": reach}
-        for sigma, reach in [(1.0, 0.5), (4.0, 0.5), (4.0, 0.0), (1.0, 0.0), (1.0, 0.5)]
+        {"sigma": sigma, "passes": passes, "reach": reach}
+        for sigma, passes, reach in [(1, 3, 0.5), (4, 3, 0.5), (4, 1, 0), (4, 2, 0.5), (1, 3, 0.5)]
     ],
 }
 

@@ -1,9 +1,9 @@
 """A shadow denoiser like FidelityFX's: passes of 3 × 3 taps, guided by the noise nearby.
 
-After AMD's FidelityFX Denoiser for shadows (SDK 1.1). "Like", because a pixel may have any number of
-rays, and so other than three passes, how far depths may differ is a share of theirs, a short history's variance is multiplied by up to 4
-in place of 16, and the power that ends it is left out: with it mean squared errors were 6 to 8 % larger.
-All on one thread.
+After AMD's FidelityFX Denoiser for shadows (SDK 1.1). "Like", because a pixel may have any number of rays, and
+the filter any number of passes; because how far depths may differ is a share of theirs; because a short history's
+variance is multiplied by up to 4 in place of 16; and because the power that ends it is left out: with it mean
+squared errors were 6 to 8 % larger. All on one thread.
 """
 
 from collections.abc import Iterator
@@ -29,8 +29,8 @@ _TAPS = np.array([1, 2 / 3], np.float32)  # by distance along an axis
 _ASLANT = np.float32(0.5)  # cosines of normals below it weigh 0, not 2e-10: their power is 32
 _LEAST = np.float32(1e-9)  # variance where there is none
 _BOOST = 4  # less the frames seen: what noise is multiplied by while they are few
-_LASTING = 8  # frames after which only `NEW` of a frame is new
-NEW = 0.05
+_LASTING = 8  # frames after which only `SHARE` of a frame is new
+SHARE = 0.05  # the least of a new frame
 CLAMP = 0.5  # standard deviations of its neighbourhood by which history may be off
 _SURPRISE = 20.0  # squares of those, over which its count of frames falls to 1 / e
 
@@ -118,7 +118,7 @@ class TemporalFfx:
     The history is the output of a frame's first pass. Where all around is dark or lit it begins anew.
 
     Args:
-        sigma: see SIGMA. passes: see PASSES. share: see NEW. clamp: see CLAMP.
+        sigma: see SIGMA. passes: see PASSES. share: see SHARE. clamp: see CLAMP.
     """
 
     def __init__(
@@ -127,7 +127,7 @@ class TemporalFfx:
         width: int,
         sigma: float = SIGMA,
         passes: float = PASSES,
-        share: float = NEW,
+        share: float = SHARE,
         clamp: float = CLAMP,
     ):
         self._spatial = FfxFilter(height, width, sigma)
@@ -156,7 +156,7 @@ class TemporalFfx:
         new[:2, begun], new[2, begun], new[3, begun] = visibility[begun], 0, 1
         new[0], last = smooth(self._spatial, new[0], variance, self._passes)
         self._history.keep(new)
-        return last
+        return last.copy()  # of no pass it is the history
 
     def _added(self, past, visibility, mean, noise) -> tuple[np.ndarray, np.ndarray]:
         """Add a frame to the history: (4, m), see `__init__`; and variance (m,).

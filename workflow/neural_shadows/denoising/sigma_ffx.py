@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from neural_shadows.denoising.ffx import CLAMP, NEW, PASSES, SIGMA, FfxTrials, TemporalFfx
+from neural_shadows.denoising.ffx import CLAMP, PASSES, SHARE, SIGMA, FfxTrials, TemporalFfx
 from neural_shadows.denoising.sigma import REACH, SigmaFilter
 from neural_shadows.rendering.reprojection import Reprojection
 from neural_shadows.rendering.surface import Surface
@@ -59,7 +59,7 @@ class TemporalSigmaFfx:
         reach: float = REACH,
         sigma: float = SIGMA,
         passes: float = PASSES,
-        share: float = NEW,
+        share: float = SHARE,
         clamp: float = CLAMP,
     ):
         self._wide = SigmaFilter(height, width, reach, alone=False)

@@ -92,5 +92,5 @@ class SvgfTrials(Trials):
         sigma_luminance: float = SIGMA_LUMINANCE,
         passes: float = PASSES,
     ) -> np.ndarray:
-        """Smooth a picture (H, W) float32, see `Trials.after`; constants: see `SvgfFilter`."""
+        """Smooth a picture (H, W) float32, see `Trials.after`; constants: see `TemporalFilter`."""
         return self.after(visibility, surface, sigma_luminance, passes)

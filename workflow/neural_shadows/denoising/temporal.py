@@ -18,7 +18,7 @@ class TemporalFilter:
     The history is the output of a frame's first pass (4.3).
 
     Args:
-        sigma_luminance: see SIGMA_LUMINANCE. passes: see PASSES. share: see SHARE.
+        sigma_luminance: see SIGMA_LUMINANCE. passes: see PASSES. share: see SHARE, of the picture alone.
     """
 
     def __init__(
@@ -52,7 +52,7 @@ class TemporalFilter:
         variance = np.where(frames >= _ENOUGH, over_time, over_pixels)
         new[0], last = smooth(self._spatial, picture, variance, self._passes)
         self._history.keep(new)
-        return last
+        return last.copy()  # of no pass it is the history
 
     def _add_history(self, new: np.ndarray, back: Reprojection | None) -> None:
         """Mix the history of seen points into new (4, H, W).
@@ -61,8 +61,9 @@ class TemporalFilter:
         """
         pixels, (*old, frames) = self._history.at(len(new), back)
         frames = np.rint(frames) + 1
-        share = np.maximum(self._share, 1 / frames)
+        # Moments are of the noise, and need a history where the picture is to have none.
+        least = [self._share, np.float32(SHARE), np.float32(SHARE)]
         flat = new.reshape(len(new), -1)
-        for image, past in zip(flat, old):
+        for image, past, share in zip(flat, old, (np.maximum(each, 1 / frames) for each in least)):
             image[pixels] = past + share * (image[pixels] - past)
         flat[3, pixels] = frames

@@ -202,14 +202,15 @@ def _at_end(
 ) -> bool:
     """Check for a best value at an end of its candidates.
 
-    If its neighbour is worse, the other constants as chosen; a bound of its own, as 0 is, is no end,
-    nor is one of two.
+    If its neighbour is worse, the other constants as chosen; a bound of its own, as 0 and a `share` of 1
+    are, is no end, nor is one of two.
     """
     others = settings[chosen] | {name: None}
     along = [e for constants, e in zip(settings, errors) if constants | {name: None} == others]
     value = settings[chosen][name]
     best = candidates.index(value)
-    if len(along) < 3 or not value or best not in (0, len(along) - 1):
+    bound = not value or (name == "share" and value == 1)
+    if len(along) < 3 or bound or best not in (0, len(along) - 1):
         return False
     return bool(along[1 if best == 0 else -2] > along[best])
 

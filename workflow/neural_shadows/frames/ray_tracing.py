@@ -19,7 +19,9 @@ from neural_shadows.scenes.tracing import NEARLY_ALL
 _CHUNK = 1 << 16  # at once: 1.6 MB of them stay in a core's cache
 _SALT = 1 << 26  # more than a frame's pixels
 
-_FEWEST_OF_SPIRAL = 3  # two of a spiral err by 6 to 9 % more (squared, nine scenes, three lights)
+# Rays of a pixel from which on they are a spiral. Two alone err by 6 to 9 % more so; filtered, spread among
+# neighbours, by 2 to 7 % less (FFX-, SVGF-like and `kernels_rays`, squared, seven scenes, four lights).
+_FEWEST_OF_SPIRAL, _FEWEST_OF_EVEN = 3, 2
 
 # Positions in a pixel: four of a rotated grid, eight of the targets' turned by a quarter. With the targets' own
 # a point light's shadow would be the target itself.
@@ -122,7 +124,7 @@ def _rays(
         shifts = even_shifts(frame.surface.pixel, frame.surface.width)
     else:  # other random numbers than the exact shadow's, to keep errors independent
         shifts = random_shifts(frame.surface.pixel + _SALT, 1)
-    if samples < _FEWEST_OF_SPIRAL:
+    if samples < (_FEWEST_OF_EVEN if even else _FEWEST_OF_SPIRAL):
         on_light = sequence_run(frame.number * samples, samples)
     else:
         on_light = spiral(samples)

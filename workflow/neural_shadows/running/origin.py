@@ -21,7 +21,7 @@ def describe_origin() -> dict[str, Any]:
 def commit_of(folder: Path) -> str:
     """Git commit of a folder, with a note on uncommitted changes.
 
-    Such as new files that results may come from: methods in `workflow`, overlays in `config`. A folder within another repository is not a checkout of that. An archive of a commit and a
+    A new file in `workflow` or `config` is one, as a user's own method or overlay. A folder within another repository is not a checkout of that. An archive of a commit and a
     container have it in `workflow/COMMIT`.
     """
 

@@ -115,8 +115,8 @@ class RenderedFrames(Model):
     validation: int = Field(2, ge=1, le=10_000, description="validation frames of each scene")
     tuned_also_on: Name | None = Field(
         None,
-        description="another frame set under the same lights: the first part of its validation frames of each "
-        "scene chooses the constants of methods, too",
+        description="another frame set under the same lights, of each of whose scenes the first file of "
+        "validation frames (`shard`; of `new_layouts` one layout) chooses the constants of methods, too",
     )
     test: int = Field(2, ge=1, le=10_000, description="test frames of each scene")
     unseen_test: int | None = Field(

@@ -115,7 +115,7 @@ function networkMethod(data) {
         planes = makeLayerFramebuffer(renderer.gl, network.planes, 0, Math.ceil(data.planes / 4));
         yield;
       }
-      const traced = data.rays ? yield* renderer.rays("base_rays", state, data.rays, { penumbrae: true, even: true }) : null;
+      const traced = data.rays ? yield* renderer.rays("base_rays", state, data.rays, { penumbrae: true, even: true, set: true }) : null;
       const made = usesMap ? renderer.buffers(state) : {};
       yield;
       const [, , forward] = cameraAxes(view), { points, normals } = renderer.surfaces(state);

@@ -141,7 +141,7 @@ class Renderer {
   *rays(name, state, count, { penumbrae = false, open = false, even = false, set = false } = {}) {
     const { view, light: { centre, radius }, move, size } = state;
     const goal = radius > 0 ? count : 1; // to a point all rays are the same
-    const whole = set && goal > 2 ? goal : 0; // as frames/ray_tracing.py: of two a sequence errs less
+    const whole = set && goal >= (even ? 2 : 3) ? goal : 0; // a spiral, where frames/ray_tracing.py has one
     const key = JSON.stringify([view, centre, radius, move, size, penumbrae, even]);
     const pair = [0, 1].map((k) => this.target(`${name}_${k}`, [BITS], ...size));
     let sent = this.kept[`${name}_1`] === undefined ? undefined : this.kept[name];

@@ -55,9 +55,10 @@ def _check_tuned(config: Sections, name: str, frames: RenderedFrames) -> None:
             raise ValueError(
                 f"{key}: {other!r} has another `{setting}`. Choose a frame set under the same lights"
             )
-    if seen := {*frames.unseen} & {*others.scenes}:
+    shown = [_drawn_from(config, scene) for scene in others.scenes]
+    if seen := [scene for scene in frames.unseen if _drawn_from(config, scene) in shown]:
         raise ValueError(
-            f"{key}: {other!r} shows {', '.join(sorted(seen))}, in `unseen` here. Choose another"
+            f"{key}: {other!r} shows {', '.join(seen)}, in `unseen` here. Choose another"
         )
 
 

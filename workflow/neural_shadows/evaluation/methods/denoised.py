@@ -39,15 +39,17 @@ _OIDN = {
     "history": False,
     "package": "pyoidn",
 }
-# Steps of √2 where most are chosen, of 4 to 8 rays: 0.7 leaves 6 to 8 % less than 0.5 and 1 there. The least
-# are of use with a history, the largest with one ray under a large light.
-_SIGMA = (0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 5.6)
+# Steps of √2: by three passes of 4 to 8 rays 0.7 leaves 6 to 8 % less than 0.5 and 1. The least are of use with
+# a history, the largest with one pass, and with one ray under a large light.
+_SIGMA = (0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.3)
 # In print three passes, of one ray with a history; of eight rays without one two or one leave up to 30 % less.
 _PASSES = (0, 1, 2, 3, 4)
 # Where the light moves by 0.4 % of the scene's size a frame the published share of a new frame left 4.5 times
-# what 0.7 leaves, and with a quarter of a deviation 6.6 times (two rays).
-_SHARES = (0.05, 0.1, 0.2, 0.4, 0.7, 1.0)
-_FFX_HISTORY = {"share": _SHARES, "clamp": (0.125, 0.25, 0.5, 1.0)}
+# what 0.7 leaves, and with a clamp of a quarter of a deviation 6.6 times (two rays).
+_FFX_HISTORY = {
+    "share": (0.05, 0.1, 0.2, 0.4, 0.7, 1.0),
+    "clamp": (0.03, 0.06, 0.125, 0.25, 0.5, 1.0, 2.0),
+}
 DENOISERS = {
     "svgf": Denoiser(
         "SVGF-like",
@@ -58,7 +60,7 @@ DENOISERS = {
         # 2.2 % less than 32 at most (four rays, validation frames): the weight is all but gone by then.
         {"sigma_luminance": (1.0, 2.0, 4.0, 8.0, 16.0, 32.0), "passes": (1, 2, 3, 5)},
         joint=True,
-        of_history={"share": (0.1, 0.2, 0.4, 0.7, 1.0)},
+        of_history={"share": (0.1, 0.2, 0.4, 0.7, 0.85, 1.0)},
     ),
     "ffx": Denoiser(
         "FFX-like",
@@ -87,7 +89,9 @@ DENOISERS = {
         # without passes, under each light of `frames`, with it last none.
         tried={
             "sigma": _SIGMA,
-            "passes": _PASSES,
+            "passes": _PASSES[
+                1:
+            ],  # of none all sigmas are alike, and the next search of one has no hold
             "reach": (0.0, 0.015, 0.03, 0.06, 0.12, 0.25, 0.5, 1.0),
         },
         rounds=2,

@@ -281,7 +281,7 @@ def tune(layout: Layout, frame_set: str, group: str, method: str) -> Work:
         tried /= SHARED
     answers = tried * pixels * _lights(layout, frame_set)
     if frame_methods.has_history(method) and (length := layout.frames(frame_set)["sequence"]):
-        of_history = math.prod(counts) if tuned.joint else sum(counts)
+        of_history = math.prod(counts) if tuned.joint else sum(counts) * (1 + tuned.rounds) / 2
         of_history += 2 * sum(map(len, tuned.of_history.values()))
         answers += of_history * SHARED_BY_A_HISTORY * (RUN_IN + length) * _size(layout, frame_set)
     return Work(LIGHT_START, 5.0 * pixels) + _answers(layout, method, answers)

@@ -1,6 +1,6 @@
 """Methods for soft shadows on the same frames: errors, flicker, time and bytes, by radius."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
@@ -84,6 +84,7 @@ def params(layout: Layout, table: str) -> dict[str, Any]:
     return {
         "left_out": tables.left_out(layout, table),
         "unseen": frames.get("unseen", []),
+        "tuned_also_on": frames.get("tuned_also_on"),
     }
 
 
@@ -94,6 +95,7 @@ def table(
     lpips_json: Path,
     left_out: Sequence[str],
     unseen: Sequence[str],
+    tuned_also_on: str | None = None,
     more_metrics: Sequence[str] = (),
     against: str | None = None,
 ) -> Table:
@@ -106,6 +108,7 @@ def table(
         soft_constants: of `tune`.
         left_out: labels of methods not available on this machine.
         unseen: scenes that no network trains on.
+        tuned_also_on: another frame set on which constants were chosen.
         more_metrics: further columns.
         against: the method of paired differences; None for no differences.
     """
@@ -158,7 +161,7 @@ def table(
             table, labels.get(against), "unseen scenes" if unseen else "all scenes"
         ),
         *_describe_orders(table, radii, unit),
-        *_describe_constants(chosen, labels),
+        *_describe_constants(chosen, labels, tuned_also_on),
         *describe_times(times),
         *describe_bytes(times),
         *describe_trainings(soft.records, labels),
@@ -276,32 +279,34 @@ def _describe_flicker(
     ]
 
 
-_ZEROS = {
-    "light": "A `light` of 0 is Open Image Denoise's network for colours of any range.",
-    "width": "A `width` of 0 is no filter.",
+_BOUNDS = {
+    ("light", 0): "A `light` of 0 is Open Image Denoise's network for colours of any range.",
+    ("width", 0): "A `width` of 0 is no filter.",
+    ("share", 1): "A `share` of 1 takes the new frame alone, without the history.",
 }
 
 
-def _describe_constants(chosen: Mapping[str, Tuned], labels: Mapping[str, str]) -> list[str]:
+def _describe_constants(
+    chosen: Mapping[str, Tuned], labels: Mapping[str, str], tuned_also_on: str | None
+) -> list[str]:
     """Describe each method's constants, and those at an end of their range."""
-    sentences = []
+    sentences, tried = [], set()
     for method, record in chosen.items():
-        names = [*record["candidates"]]
-        sentence = f"{labels[method]}, by radius: {_describe_choices(names, record['radii'])}"
+        candidates = record["candidates"]
+        sentence = f"{labels[method]}, by radius: {_describe_choices(candidates, record['radii'])}"
         if "history" in record:
-            names += record.get("of_history", ())
-            sentence += f"; over time: {_describe_choices(names, [record['history']])}"
+            candidates = candidates | record.get("of_history", {})
+            sentence += f"; over time: {_describe_choices(candidates, [record['history']])}"
+        tried |= {(name, value) for name, values in candidates.items() for value in values}
         sentences.append(f"{sentence}.")
     if not sentences:
         return []
-    zero = {
-        name for each in chosen.values() for name, tried in each["candidates"].items() if 0 in tried
-    }
-    zeros = [text for name, text in _ZEROS.items() if name in zero]
-    return ["Constants are the best on validation frames.", *sentences, *zeros]
+    also = f", also on those of {tuned_also_on}" if tuned_also_on else ""
+    bounds = [text for bound, text in _BOUNDS.items() if bound in tried]
+    return [f"Constants are the best on validation frames{also}.", *sentences, *bounds]
 
 
-def _describe_choices(names: Sequence[str], choices: Sequence[TunedRadius]) -> str:
+def _describe_choices(names: Iterable[str], choices: Sequence[TunedRadius]) -> str:
     parts = [
         f"{name} " + ", ".join(f"{choice['constants'][name]:g}" for choice in choices)
         for name in names
