@@ -282,6 +282,7 @@ def _describe_flicker(
 _BOUNDS = {
     ("light", 0): "A `light` of 0 is Open Image Denoise's network for colours of any range.",
     ("width", 0): "A `width` of 0 is no filter.",
+    ("passes", 1): "Fewer `passes` than 1 filter nothing.",
     ("share", 1): "A `share` of 1 takes the new frame alone, without the history.",
 }
 
