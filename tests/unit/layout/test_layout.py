@@ -13,6 +13,7 @@ from neural_shadows.layout import evaluations, frame_methods, frame_sets, kinds,
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import HELD_OUT, batches, part_range, view_range
 from neural_shadows.layout.paths import ALL
+from neural_shadows.layout.shown_meshes import shown_meshes
 from neural_shadows.reports import targets
 from neural_shadows.reports.claims import inputs as claims
 from neural_shadows.reports.page import inputs as pages
@@ -491,3 +492,17 @@ def test_claims_on_networks_have_what_learns_nothing_on_their_frames(desk):
             assert desk.paths.evaluation("csv", frame_set, name, ALL) in measured
     bases = desk.settings["claims"]["kpnsm_moments_are_the_best_base"]["bases"]
     assert bases == {"kpnsm": "base_msm", "kpnsm_basic": "base_hard", "kpnsm_pcf": "base_pcf"}
+
+
+def test_meshes_that_no_report_shows_are_left_out(desk):
+    assert shown_meshes(desk) == desk.mesh_scenes
+    entries = desk.settings["tables"], desk.settings["scenes"]
+    soft = {"soft_sun": entries[0]["soft_sun"]}
+    alone = Layout(
+        {**desk.settings, "tables": soft, "figures": {}, "viewers": {}, "claims": {}},
+    )
+    assert shown_meshes(alone) == ["dragon", "fence"]  # stand in the frames of `sun`
+    pictures = [path for path in targets.all_reports(alone) if "/scenes/" in path]
+    assert {path.split("/")[-1] for path in pictures} == {
+        f"{name}.{ending}" for name in ("dragon", "fence") for ending in ("png", "svg")
+    }

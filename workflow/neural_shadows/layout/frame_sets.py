@@ -78,10 +78,15 @@ def import_settings(layout: Layout, scene: str, frame_set: str) -> dict[str, Any
     return {"size": engine["sizes"][scene], **{key: engine[key] for key in keys}}
 
 
+def inserted(layout: Layout, scenes: Iterable[str], frame_set: str) -> list[str]:
+    """Names of the scenes' inserted objects; none of a user's frames."""
+    arrangements = _arrangements(layout, scenes, frame_set)
+    return [name for one in arrangements for name in one["inserted"]]
+
+
 def meshes(layout: Layout, scene: str, frame_set: str) -> list[str]:
     """Meshes of a scene's inserted objects; none of a user's frames."""
-    inserted = _arrangements(layout, [scene], frame_set)
-    return [layout.paths.scene("mesh.ply", name) for one in inserted for name in one["inserted"]]
+    return [layout.paths.scene("mesh.ply", name) for name in inserted(layout, [scene], frame_set)]
 
 
 def generators(layout: Layout, frame_set: str, scenes: Iterable[str] | None = None) -> set[Path]:

@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from neural_shadows.layout.layout import Layout
+from neural_shadows.layout.shown_meshes import shown_meshes
 from neural_shadows.reports.drawing import opengl
 
 
@@ -17,7 +18,7 @@ def all_reports(layout: Layout) -> list[str]:
             for ending in (".csv", ".md", ".json")
         ),
         *(f"{name}{ending}" for name in default_figures(layout) for ending in (".png", ".svg")),
-        *(f"scenes/{one}{ending}" for one in layout.mesh_scenes for ending in (".png", ".svg")),
+        *(f"scenes/{one}{ending}" for one in shown_meshes(layout) for ending in (".png", ".svg")),
         *(f"{name}.html" for name in layout.settings["viewers"]),
         *(f"claims{ending}" for ending in (".csv", ".md", ".json") if layout.settings["claims"]),
         "index.html",

@@ -7,6 +7,7 @@ from typing import Any
 from neural_shadows.evaluation.registry import RAY_TRACED
 from neural_shadows.layout import kinds, tables
 from neural_shadows.layout.layout import Layout
+from neural_shadows.layout.shown_meshes import shown_meshes
 from neural_shadows.reports.claims import inputs as claims
 from neural_shadows.reports.data.method_look import kind_of
 from neural_shadows.reports.figures import soft_pictures
@@ -40,7 +41,7 @@ def page_files(layout: Layout) -> dict[str, Any]:
         "references": tables.references(layout, scenes),
         "visibilities": tables.evaluations(layout, rows, "npz"),
         "metrics": tables.evaluations(layout, rows, "csv"),
-        "meshes": [paths.scene("mesh.json", scene) for scene in layout.mesh_scenes],
+        "meshes": [paths.scene("mesh.json", scene) for scene in shown_meshes(layout)],
         "trainings": tables.networks(layout, rows, "training.json"),
         "lpips_json": [paths.lpips],
     }

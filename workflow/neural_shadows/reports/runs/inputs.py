@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from neural_shadows.layout.layout import Layout
+from neural_shadows.layout.shown_meshes import shown_meshes
 from neural_shadows.reports import targets
 
 
@@ -14,7 +15,7 @@ def files(layout: Layout) -> dict[str, Any]:
     stills = [layout.paths.report(f"{viewer}.png") for viewer in layout.settings["viewers"]]
     return {
         "reports": [*targets.all_reports(layout), *stills],
-        "meshes": [layout.paths.scene("mesh.json", scene) for scene in layout.mesh_scenes],
+        "meshes": [layout.paths.scene("mesh.json", scene) for scene in shown_meshes(layout)],
     }
 
 
