@@ -159,7 +159,7 @@ class TemporalFfx:
         return last.copy()  # of no pass it is the history
 
     def _added(self, past, visibility, mean, noise) -> tuple[np.ndarray, np.ndarray]:
-        """Add a frame to the history: (4, m), see `__init__`; and variance (m,).
+        """Add a frame to the history: (4, m), in the order of `_history`; and variance (m,).
 
         Args:
             past: (4, m). visibility: (m,) of the frame's rays; mean, noise: (m,), see `neighbourhood`.

@@ -20,7 +20,7 @@ _CHUNK = 1 << 16  # at once: 1.6 MB of them stay in a core's cache
 _SALT = 1 << 26  # more than a frame's pixels
 
 # Rays of a pixel from which on they are a spiral. Two alone err by 6 to 9 % more so; filtered, spread among
-# neighbours, by 2 to 7 % less (FFX-, SVGF-like and `kernels_rays`, squared, seven scenes, four lights).
+# neighbours, by up to 7 % less (FFX-, SVGF-like and `kernels_rays`, squared, seven scenes, four lights).
 _FEWEST_OF_SPIRAL, _FEWEST_OF_EVEN = 3, 2
 
 # Positions in a pixel: four of a rotated grid, eight of the targets' turned by a quarter. With the targets' own

@@ -175,37 +175,35 @@ def tuned_arrays(layout: Layout, frame_set: str) -> list[str]:
     return arrays(layout, frame_set, validations(layout, frame_set))
 
 
-def tuned_sets(layout: Layout, frame_set: str) -> list[str]:
-    """Frame sets on whose validation frames the constants of methods are chosen."""
-    settings = layout.frames(frame_set)
+def tuned_parts(layout: Layout, frame_set: str) -> dict[str, list[str]]:
+    """Parts on which the constants of methods are chosen, by frame set: of another each scene's first."""
+    settings, found = layout.frames(frame_set), {frame_set: validations(layout, frame_set)}
     also = settings["tuned_also_on"] if settings["path"] is None else None
-    return [frame_set] if also is None else [frame_set, also]
+    if also is not None:
+        scenes = tuned_scenes(layout, also)
+        found[also] = [parts(layout, scene, also, "validation")[0] for scene in scenes]
+    return found
 
 
 def tuned(layout: Layout, frame_set: str) -> list[str]:
-    """Parts on which the constants of methods are chosen: of another frame set each scene's first."""
-    parts_of_others = [
-        parts(layout, scene, one, "validation")[0]
-        for one in tuned_sets(layout, frame_set)[1:]
-        for scene in tuned_scenes(layout, one)
-    ]
-    return validations(layout, frame_set) + parts_of_others
+    """All of `tuned_parts`."""
+    return [part for parts in tuned_parts(layout, frame_set).values() for part in parts]
 
 
 def tuned_meshes(layout: Layout, frame_set: str) -> list[str]:
     """`all_meshes`, with those of the other frames on which constants are chosen."""
-    sets = tuned_sets(layout, frame_set)
+    sets = tuned_parts(layout, frame_set)
     return list(dict.fromkeys(mesh for one in sets for mesh in all_meshes(layout, one)))
 
 
 def fitted_generators(layout: Layout, frame_set: str) -> set[Path]:
     """Modules of the generators of all objects covered by the fields."""
-    return set().union(*(generators(layout, one) for one in tuned_sets(layout, frame_set)))
+    return set().union(*(generators(layout, one) for one in tuned_parts(layout, frame_set)))
 
 
 def tuned_modules(layout: Layout, frame_set: str) -> set[Path]:
     """`modules` of all frames on which constants are chosen."""
-    return set().union(*(modules(layout, one) for one in tuned_sets(layout, frame_set)))
+    return set().union(*(modules(layout, one) for one in tuned_parts(layout, frame_set)))
 
 
 def all_meshes(layout: Layout, frame_set: str) -> list[str]:

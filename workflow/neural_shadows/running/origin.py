@@ -21,8 +21,9 @@ def describe_origin() -> dict[str, Any]:
 def commit_of(folder: Path) -> str:
     """Git commit of a folder, with a note on uncommitted changes.
 
-    A new file in `workflow` or `config` is one, as a user's own method or overlay. A folder within another repository is not a checkout of that. An archive of a commit and a
-    container have it in `workflow/COMMIT`.
+    A new file in `workflow` or `config` is one, as a user's own method or overlay. A folder within
+    another repository is not a checkout of that. An archive of a commit and a container have it in
+    `workflow/COMMIT`.
     """
 
     def git(*arguments: str) -> str:

@@ -137,7 +137,7 @@ class Renderer {
   }
 
   // Sends rays until a pixel has `count`, some at a time; goes on where an earlier call of this name
-  // stopped. Gives the texture of rays.frag.
+  // stopped. Gives the texture of rays.frag. `set`: all `count` make up one set, not the begin of a sequence.
   *rays(name, state, count, { penumbrae = false, open = false, even = false, set = false } = {}) {
     const { view, light: { centre, radius }, move, size } = state;
     const goal = radius > 0 ? count : 1; // to a point all rays are the same

@@ -239,6 +239,7 @@ WORDS |= {
 }
 COUNTED = {"cone": 0.3, "field": 0.7, "pcf": 0.02}
 OTHER = 0.05
+SHARED_ONE_BY_ONE = 1.5  # of the SIGMA- and FFX-like filters, beside what all searches take
 SHARED = 3.7  # settings of the SVGF-like filter share their passes: 7.5 s in place of 28 s a frame
 # Settings of a history share rays and look-ups: four took 0.31 to 0.54 of their time without that.
 SHARED_BY_A_HISTORY = 0.45
@@ -266,10 +267,8 @@ def tune(layout: Layout, frame_set: str, group: str, method: str) -> Work:
         if is_network(method):
             return Work(START, 2.0 * pixels) + _query(layout, method, pixels)
         return Work(LIGHT_START, 1.0 * pixels)
-    pixels = _pixels(layout, frame_set, frame_sets.validations(layout, frame_set))
-    for other in frame_sets.tuned_sets(layout, frame_set)[1:]:
-        parts = [part for part in frame_sets.tuned(layout, frame_set) if f"/{other}/" in part]
-        pixels += _pixels(layout, other, parts)
+    tuned_parts = frame_sets.tuned_parts(layout, frame_set).items()
+    pixels = sum(_pixels(layout, one, parts) for one, parts in tuned_parts)
     tuned = method_of(method)
     # Those of a last filter answer once.
     own = {name: values for name, values in tuned.constants.items() if name not in tuned.of_last}
@@ -277,8 +276,8 @@ def tune(layout: Layout, frame_set: str, group: str, method: str) -> Work:
     # On frames a search tries nothing twice: of MSSM's constants a second round half as many settings as the first.
     one_by_one = (1 + sum(counts) - len(counts) + bool(tuned.of_last)) * (1 + tuned.rounds) / 2
     tried = math.prod(counts) if tuned.joint else one_by_one
-    if "passes" in tuned.constants and tuned.joint:
-        tried /= SHARED
+    if "passes" in tuned.constants:
+        tried /= SHARED if tuned.joint else SHARED_ONE_BY_ONE
     answers = tried * pixels * _lights(layout, frame_set)
     if frame_methods.has_history(method) and (length := layout.frames(frame_set)["sequence"]):
         of_history = math.prod(counts) if tuned.joint else sum(counts) * (1 + tuned.rounds) / 2
