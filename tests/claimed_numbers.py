@@ -32,7 +32,7 @@ COUNTS = {
     "supported": (verdicts.SUPPORTED,),
     "contradicted": (verdicts.CONTRADICTED,),
     "not learned, undecided": (verdicts.NOT_LEARNED, verdicts.TOO_SMALL, verdicts.UNDECIDED),
-    "other mesh or device": (verdicts.NOT_COMPARABLE,),
+    "not comparable": (verdicts.NOT_COMPARABLE,),
     "vacuous": (verdicts.VACUOUS,),
 }
 NUMBER = re.compile(r"(?<![\w.])[-−+]?\d[\d,]*(?:\.\d+)?")

@@ -164,7 +164,7 @@ def describe_times(times: FrameTimes) -> str:
         f"Times of {times['scene']}: {times['repeats']} frames of {times['width']} × "
         f"{times['height']} from {times['views']} viewpoints after {times['warm_up']} to warm up, "
         f"on {' and '.join(where[device] for device in sorted(ran))}, networks in "
-        f"{times['precision']}; a network answers {times['sphere_rays']:,.0f} rays a frame."
+        f"{times['precision']}; a network evaluates {times['sphere_rays']:,.0f} rays a frame."
     )
 
 

@@ -187,8 +187,8 @@ def cells(table: pd.DataFrame) -> dict[str, Column | Iterable[str]]:
     """Format the columns; the first row of a scene names it."""
     measured = table["lpips_low"].notna().any()  # printed values have no interval
     perceived = "lpips" if measured else "flip"
-    # Of the thesis's networks the mean is printed, and no views to pool.
-    means = number_cells(table["psnr"], "{:.2f} (mean)")
+    # The thesis does not say whether its PSNR is pooled, and has no views to pool.
+    means = number_cells(table["psnr"], "{:.2f} (pooled or mean)")
     pooled = quality_cells.quality_column(table, "psnr_pooled")
     pooled = replace(pooled, texts=[text or mean for text, mean in zip(pooled.texts, means)])
     ends = ["" if end is not True else " †" for end in table["bias_at_end"]]
