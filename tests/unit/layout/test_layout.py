@@ -184,14 +184,22 @@ def test_a_change_of_one_kind_of_frames_is_none_of_the_other(desk):
     assert {"kernels", "screen_network_method"} < {path.stem for path in of_network}
 
 
-def test_filters_over_time_have_a_sequence_of_their_own_for_their_constants(desk):
+def test_filters_over_time_have_sequences_of_their_own_for_their_constants(desk):
+    """One of each scene that networks train on, and of each motion."""
     files = {
-        name: evaluations.tuned_files(desk, "frames", "all", name)["sequence"]
+        name: evaluations.tuned_files(desk, "frames", "all", name)["sequences"]
         for name in ("rt_1_svgf", "rt_1_oidn", "pcss")
     }
-    (sequence,) = files.pop("rt_1_svgf")
-    assert sequence == "results/frames/frames/room_dragon/validation_both_000.json"
-    assert sequence not in evaluations.evaluated_files(desk, "frames", "all", "pcss")["sequences"]
+    sequences = files.pop("rt_1_svgf")
+    parts = "both", "camera", "light", "object", "both"
+    scenes = "room_dragon", "atrium", "hall", "classroom", "gallery"
+    assert sequences == [
+        f"results/frames/frames/{scene}/validation_{part}_000.json"
+        for scene, part in zip(scenes, parts)
+    ]
+    assert not {*sequences} & {
+        *evaluations.evaluated_files(desk, "frames", "all", "pcss")["sequences"]
+    }
     assert set(map(tuple, files.values())) == {()}
     settings = frame_sets.frame_settings(desk, "room_dragon", "frames", "validation_both_000")
     assert settings["last"] == 5 and settings["samples"] == 4

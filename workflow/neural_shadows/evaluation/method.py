@@ -27,6 +27,7 @@ ShadowMethod = Callable[["GBuffer"], OfBias]
 # light leaks where it is too large. A distance field, right on average, may need a negative one.
 _OCTAVES = np.round(0.0005 * 2 ** (np.arange(25) / 3), 5)
 BIASES = tuple(float(b) for b in (*-_OCTAVES[15::-1], 0.0, *_OCTAVES))
+ROUNDS_OF_HISTORY = 2  # in which the constants of a history are chosen, one after the other
 
 
 @dataclass(frozen=True)
@@ -48,7 +49,7 @@ class Method:
         sizes: allowed N; empty of a method without one.
         stored_bytes: of a size, in a file as in memory; None if it stores nothing.
         exact: the reference itself.
-        of_history: the candidates of further constants of `sequence`.
+        of_history: the candidates of further constants of `sequence`, searched one after the other.
         joint: constants are searched jointly, and of equal errors the smallest are chosen; else one
             after another, and the first. rounds: of those searches, in which all are chosen anew.
         tuned_as: key of the method with its constants, if not its own.

@@ -37,7 +37,7 @@ def tuned_files(layout: Layout, frame_set: str, group: str, method: str) -> dict
         }
     return {
         "frames": frame_sets.tuned(layout, frame_set),
-        "sequence": frame_sets.tuned_sequence(layout, frame_set)
+        "sequences": frame_sets.tuned_sequences(layout, frame_set)
         if frame_methods.has_history(method)
         else [],
         "meshes": frame_sets.tuned_meshes(layout, frame_set),

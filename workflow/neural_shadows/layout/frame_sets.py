@@ -1,10 +1,11 @@
 """Parts of frame sets: files and settings of their jobs."""
 
 from collections.abc import Iterable, Mapping
+from itertools import cycle
 from pathlib import Path
 from typing import Any
 
-from neural_shadows.frames.uses import SEQUENCES, TUNED_SEQUENCE, USES, motion_of, use_of
+from neural_shadows.frames.uses import SEQUENCES, TUNED_SEQUENCES, USES, motion_of, use_of
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import part_names
 from neural_shadows.rendering.light_shape import shape_module
@@ -39,7 +40,7 @@ def frame_settings(layout: Layout, scene: str, frame_set: str, part: str) -> dic
         "last": min(first + shard, total),
         # Noise of targets adds equally to all errors: choosing among them needs few rays.
         "samples": settings["samples"][
-            "train" if use in ("train", "validation", TUNED_SEQUENCE) else "measured"
+            "train" if use in ("train", "validation", *TUNED_SEQUENCES) else "measured"
         ],
         # A method of rays traces its own in tests.
         "rays": settings["rays"] * (use in ("train", "validation")),
@@ -223,12 +224,17 @@ def sequences(layout: Layout, frame_set: str) -> list[str]:
     return [part for scene, use in pairs for part in parts(layout, scene, frame_set, use)]
 
 
-def tuned_sequence(layout: Layout, frame_set: str) -> list[str]:
-    """The sequence on which constants are chosen, of the first scene, if the set has sequences."""
+def tuned_sequences(layout: Layout, frame_set: str) -> list[str]:
+    """Sequences on which constants are chosen, if the set has any: one of each scene in `scenes`.
+
+    What moves differs from scene to scene: with one sequence alone the FFX-like filter of eight rays erred half
+    as much again over test sequences by its history as by single frames.
+    """
     settings = layout.frames(frame_set)
     if settings["path"] is not None:
         return []
-    return parts(layout, settings["scenes"][0], frame_set, TUNED_SEQUENCE)
+    pairs = zip(settings["scenes"], cycle(TUNED_SEQUENCES))
+    return [part for scene, use in pairs for part in parts(layout, scene, frame_set, use)]
 
 
 def first_tests(layout: Layout, frame_set: str) -> list[str]:

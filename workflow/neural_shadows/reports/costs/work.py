@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from neural_shadows.evaluation.method import ROUNDS_OF_HISTORY
 from neural_shadows.evaluation.registry import is_network, method_of, unbiased
 from neural_shadows.frames.uses import RUN_IN
 from neural_shadows.layout import evaluations, frame_methods, frame_sets, tables
@@ -279,10 +280,12 @@ def tune(layout: Layout, frame_set: str, group: str, method: str) -> Work:
     if "passes" in tuned.constants:
         tried /= SHARED if tuned.joint else SHARED_ONE_BY_ONE
     answers = tried * pixels * _lights(layout, frame_set)
-    if frame_methods.has_history(method) and (length := layout.frames(frame_set)["sequence"]):
-        of_history = math.prod(counts) if tuned.joint else sum(counts) * (1 + tuned.rounds) / 2
-        of_history += 2 * sum(map(len, tuned.of_history.values()))
-        answers += of_history * SHARED_BY_A_HISTORY * (RUN_IN + length) * _size(layout, frame_set)
+    if frame_methods.has_history(method):
+        in_sequences = len(frame_sets.tuned_sequences(layout, frame_set))
+        in_sequences *= RUN_IN + layout.frames(frame_set)["sequence"]
+        # A later round repeats most of the first.
+        of_history = (1 + ROUNDS_OF_HISTORY) / 2 * sum(map(len, tuned.of_history.values()))
+        answers += of_history * SHARED_BY_A_HISTORY * in_sequences * _size(layout, frame_set)
     return Work(LIGHT_START, 5.0 * pixels) + _answers(layout, method, answers)
 
 
