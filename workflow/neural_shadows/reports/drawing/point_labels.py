@@ -11,7 +11,7 @@ from matplotlib.transforms import Bbox
 
 # Offsets of names in points, to the right and up, nearest first.
 SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, 1), (1, -1), (-1, -1))
-OFFSETS = [(distance * x, distance * y) for distance in (7, 12, 18) for x, y in SIDES]
+OFFSETS = [(distance * x, distance * y) for distance in (7, 12, 18, 28) for x, y in SIDES]
 HORIZONTAL = {1: "left", 0: "center", -1: "right"}
 VERTICAL = {1: "bottom", 0: "center", -1: "top"}
 CLEARLY = 1.5  # distance of a name from others' points over that from its own, without a leader
