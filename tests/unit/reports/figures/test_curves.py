@@ -225,6 +225,20 @@ def test_a_line_leads_to_a_name_that_another_point_is_as_near_to():
     assert 3 < len(leaders) < len(axes.texts) and (*axes.get_xlim(), *axes.get_ylim()) == limits
 
 
+def test_the_first_names_may_stand_farther_off():
+    """Such as those of networks, which a chart must name."""
+    points = np.random.default_rng(0).uniform(0, 1, (50, 2))
+    named = []
+    for far in (0, 25):
+        axes = new_figure("Names", 7, 6).subplots()
+        axes.plot(*points.T, "o")
+        axes.figure.draw_without_rendering()
+        label_points(axes, points, [f"the point {i}" for i in range(50)], far=far, fontsize=7)
+        named.append({int(text.get_text().split(" ")[2]) for text in axes.texts})
+    few, more = ({i for i in names if i < 25} for names in named)
+    assert few < more and len(more) > 20
+
+
 def test_points_have_tooltips_in_the_svg(tmp_path):
     figure = new_figure("Chart", 4, 3)
     points_with_tooltips(figure.subplots(), [1, 2], [3, 4], ["one & <two>", "three"])

@@ -12,6 +12,7 @@ from matplotlib.transforms import Bbox
 # Offsets of names in points, to the right and up, nearest first.
 SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, 1), (1, -1), (-1, -1))
 OFFSETS = [(distance * x, distance * y) for distance in (7, 12, 18) for x, y in SIDES]
+FAR_OFFSETS = [(distance * x, distance * y) for distance in (28, 40, 55, 75) for x, y in SIDES]
 HORIZONTAL = {1: "left", 0: "center", -1: "right"}
 VERTICAL = {1: "bottom", 0: "center", -1: "top"}
 CLEARLY = 1.5  # distance of a name from others' points over that from its own, without a leader
@@ -20,7 +21,9 @@ LEADER = {"color": "#777777", "linewidth": 0.6, "zorder": 0}
 MARKER = 5  # radius, points
 
 
-def label_points(axes: Axes, points: np.ndarray, names: Sequence[str], **look: Any) -> None:
+def label_points(
+    axes: Axes, points: np.ndarray, names: Sequence[str], *, far: int = 0, **look: Any
+) -> None:
     """Write each point's name at the first free of `OFFSETS`.
 
     The layout must be done (`Figure.draw_without_rendering`). A name without a free offset is
@@ -29,6 +32,7 @@ def label_points(axes: Axes, points: np.ndarray, names: Sequence[str], **look: A
 
     Args:
         points: shape (N, 2), in data coordinates.
+        far: how many of the first names may also stand at `FAR_OFFSETS`.
         look: of `Axes.annotate`.
     """
     pixels = axes.get_figure(root=True).dpi / 72
@@ -39,14 +43,14 @@ def label_points(axes: Axes, points: np.ndarray, names: Sequence[str], **look: A
     paths = [line.get_transform().transform_path(line.get_path()) for line in axes.lines]
     for bars in axes.collections:
         paths += map(bars.get_transform().transform_path, bars.get_paths())
-    for point, centre, name in zip(points, centres, names):
+    for number, (point, centre, name) in enumerate(zip(points, centres, names)):
         # Without markers that cover its own.
         others = centres[np.linalg.norm(centres - centre, axis=1) > radius]
         # Laid out once, not at each offset: 2.5 instead of 25 s for eight panels of 17 points.
         text = axes.annotate(name, point, (0, 0), textcoords="offset points", va="bottom", **look)
         text.set_in_layout(False)
         size = text.get_window_extent().size
-        for right, up in OFFSETS:
+        for right, up in OFFSETS + FAR_OFFSETS * (number < far):
             sides = np.sign((right, up))
             corner = centre + pixels * np.array((right, up)) + (sides - 1) / 2 * size
             box = Bbox([corner, corner + size])

@@ -72,11 +72,12 @@ def frame_picture(axes: Axes, colour: str = "#bbbbbb", width: float = 0.5) -> No
     axes.spines[:].set(visible=colour != "none", edgecolor=colour, linewidth=width)
 
 
-def label_panels(panels: Iterable[tuple[Axes, pd.DataFrame]], size: float) -> None:
+def label_panels(panels: Iterable[tuple[Axes, pd.DataFrame]], size: float, far: int = 0) -> None:
     """Write points' names beside them, when the layout is done.
 
     Args:
         panels: axes of one figure, and their points: x, y and name, in the order to place them.
+        far: see `label_points`.
     """
     from neural_shadows.reports.drawing.point_labels import label_points
 
@@ -84,7 +85,7 @@ def label_panels(panels: Iterable[tuple[Axes, pd.DataFrame]], size: float) -> No
     panels[0][0].get_figure(root=True).draw_without_rendering()
     for axes, points in panels:
         names, places = points.iloc[:, 2], points.iloc[:, :2].to_numpy(float)
-        label_points(axes, places, [*names], fontsize=size)
+        label_points(axes, places, [*names], far=far, fontsize=size)
 
 
 def legend_below(

@@ -90,11 +90,12 @@ def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str
         axes.grid(**style.GRID)
         for axis in (axes.xaxis, axes.yaxis):
             style.plain_numbers(axis)
-        # Where names have no room those of networks stay.
+        # Where names have no room those of networks stay, if farther off.
         placed = methods.sort_values(
             "method", key=lambda keys: ~keys.map(is_network), kind="stable"
         )
         panel_rows.append((axes, placed[["ms", "error", "label"]]))
     panels[0].set_ylabel(f"{name} of visibility, × 10⁻⁴,\nlower is better (bars: 95 % intervals)")
-    style.label_panels(panel_rows, 7)
+    networks = table.loc[table["method"].map(is_network), "method"].nunique()
+    style.label_panels(panel_rows, 7, far=networks)
     return figure
