@@ -115,3 +115,14 @@ def test_a_picture_without_history_is_still_smoothed_by_its_noise():
         picture = noisy(truth, rng)
         found = svgf.next_frame(picture, surface, back)
     assert error(found, truth) < 0.3 * error(picture, truth)
+
+
+@pytest.mark.parametrize("key", ["ffx", "sigma_ffx"])
+def test_a_share_of_one_is_no_history(key):
+    """So that a search among shares errs no more with a history than without, where it is made."""
+    rng, filter_, before = np.random.default_rng(0), KINDS[key](HEIGHT, WIDTH, share=1.0), None
+    for shift in (0.0, 0.02, 0.04, 0.06, 0.08):
+        visibility, surface = noisy(plate_truth(shift), rng), plate_frame(shift).surface
+        back = before and Reprojection(surface, before)
+        found, before = filter_.next_frame(*pictures(key, visibility), surface, back), surface
+        assert np.abs(found - alone(key, visibility, surface)).max() < 1e-6

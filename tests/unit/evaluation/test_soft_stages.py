@@ -50,9 +50,10 @@ def tune(folder, method):
     return json.loads(out.read_text())
 
 
-def test_the_constants_of_least_error_are_chosen(folder):
-    record = tune(folder, "pcf_9")
-    method = frame_method("pcf_9")
+@pytest.mark.parametrize("key", ["pcf_9", "rt_1_svgf"])
+def test_the_constants_of_least_error_are_chosen(folder, key):
+    """One constant by itself, and two jointly."""
+    record, method = tune(folder, key), frame_method(key)
     frames = [*measured_frames([folder / "validation_000.json"], [])]
     for k, radius in enumerate(RADII):
         errors = []
@@ -285,6 +286,12 @@ def test_constants_for_sequences_are_chosen_with_the_history(folder):
     assert errors[0] != errors[1]
     best = np.mean(errors, axis=0).argmin()
     assert chosen["clamp"] == method.of_history["clamp"][best]
+    steps = [[*steps_of(measured_frames([path], []))] for path in both]
+    of_share = [
+        sum(squared_error(each, method, chosen | {"share": share}) for each in steps)
+        for share in method.of_history["share"]
+    ]
+    assert chosen["share"] == method.of_history["share"][np.argmin(of_share)]
     tried = [each["mse"] for each in record["history"]["tried"]]
     assert tried == pytest.approx(np.mean(errors, axis=0))
     assert len(set(tried)) > 3  # the constant has an effect

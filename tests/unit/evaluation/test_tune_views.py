@@ -1,3 +1,4 @@
+import numpy as np
 import pytest
 import torch
 import trimesh
@@ -5,7 +6,7 @@ from evaluated import SCENE, make_evaluated
 
 from neural_shadows.evaluation import ray_network
 from neural_shadows.evaluation.method import BIASES
-from neural_shadows.evaluation.tune import tune
+from neural_shadows.evaluation.tune import _search, tune
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 from neural_shadows.representations.depths import LIT
@@ -98,3 +99,11 @@ def test_a_map_that_needs_no_bias_gets_none(find):
     errors = {error["depth_bias"]: error for error in found["errors"]}
     assert errors[-0.016]["false_shadow"] > 0.1 > 0.01 > errors[0.0]["false_shadow"]
     assert abs(found["depth_bias"]) < 0.003 and "push" not in found
+
+
+def test_of_equal_errors_a_map_takes_the_smallest_bias():
+    """The first is the most negative."""
+    errors = np.where(np.abs(BIASES) < 0.004, 0.1, 0.2)[:, None]
+    begins = [{"constants": {"depth_bias": BIASES[0]}}]
+    _search({"depth_bias": BIASES}, [["depth_bias"]], True, begins, ["error"], lambda *_: [errors])
+    assert begins[0]["constants"] == {"depth_bias": 0.0}

@@ -201,6 +201,10 @@ def test_filters_over_time_have_sequences_of_their_own_for_their_constants(desk)
         *evaluations.evaluated_files(desk, "frames", "all", "pcss")["sequences"]
     }
     assert set(map(tuple, files.values())) == {()}
+    of_one_scene = evaluations.tuned_files(desk, "nsm", "all", "rt_4_ffx")["sequences"]
+    assert of_one_scene == [
+        f"results/frames/nsm/room/validation_{part}_000.json" for part in parts[:4]
+    ]
     settings = frame_sets.frame_settings(desk, "room_dragon", "frames", "validation_both_000")
     assert settings["last"] == 5 and settings["samples"] == 4
 

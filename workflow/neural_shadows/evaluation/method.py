@@ -49,7 +49,8 @@ class Method:
         sizes: allowed N; empty of a method without one.
         stored_bytes: of a size, in a file as in memory; None if it stores nothing.
         exact: the reference itself.
-        of_history: the candidates of further constants of `sequence`, searched one after the other.
+        of_history: the candidates of further constants of `sequence`, searched one after the other on sequences,
+            the others being those of the middle radius.
         joint: constants are searched jointly, and of equal errors the smallest are chosen; else one
             after another, and the first. rounds: of those searches, in which all are chosen anew.
         tuned_as: key of the method with its constants, if not its own.

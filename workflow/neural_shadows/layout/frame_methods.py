@@ -31,8 +31,8 @@ def fields(layout: Layout, frame_set: str, method: str) -> list[str]:
 
 
 def has_history(method: str) -> bool:
-    """Check for a method that uses the frames before, in a sequence."""
-    return not is_network(method) and frame_method(method).sequence is not None
+    """Check for a method that uses the frames before, in a sequence, by constants of their own."""
+    return not is_network(method) and bool(frame_method(method).of_history)
 
 
 def occluders(layout: Layout, frame_set: str, method: str) -> list[str]:

@@ -1,7 +1,7 @@
 """Parts of frame sets: files and settings of their jobs."""
 
 from collections.abc import Iterable, Mapping
-from itertools import cycle
+from itertools import cycle, islice
 from pathlib import Path
 from typing import Any
 
@@ -225,15 +225,12 @@ def sequences(layout: Layout, frame_set: str) -> list[str]:
 
 
 def tuned_sequences(layout: Layout, frame_set: str) -> list[str]:
-    """Sequences on which constants are chosen, if the set has any: one of each scene in `scenes`.
-
-    What moves differs from scene to scene: with one sequence alone the FFX-like filter of eight rays erred half
-    as much again over test sequences by its history as by single frames.
-    """
+    """Sequences on which constants of histories are chosen, if the set has any: of each scene and each motion."""
     settings = layout.frames(frame_set)
     if settings["path"] is not None:
         return []
-    pairs = zip(settings["scenes"], cycle(TUNED_SEQUENCES))
+    count = max(len(settings["scenes"]), len(TUNED_SEQUENCES))
+    pairs = islice(zip(cycle(settings["scenes"]), cycle(TUNED_SEQUENCES)), count)
     return [part for scene, use in pairs for part in parts(layout, scene, frame_set, use)]
 
 

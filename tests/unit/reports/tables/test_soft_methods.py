@@ -46,7 +46,8 @@ def written(tmp_path):
         write_metrics(paths[-1], [row | {"method": method} for row in rows])
     chosen = {"constants": {"bias": 3}, "at_end": ["bias"], "mse": 0.1}
     tuned = {"method": "pcss_post", "candidates": {"bias": [1, 3]}, "radii": [chosen] * 2}
-    tuned["history"] = chosen | {"constants": {"bias": 1}}
+    tuned["history"] = chosen | {"constants": {"bias": 3, "share": 0.2}, "at_end": ["share"]}
+    tuned["of_history"] = {"share": [0.1, 0.2]}
     records = {
         "times": samples.SOFT_TIMES | {"methods": TIMES},
         **{"lpips": {"available": False}, "frames": samples.SOFT_FRAMES},
@@ -106,8 +107,11 @@ def test_what_looks_at_a_map_waits_for_it(written):
 
 def test_notes_say_constants_and_where_they_end(written):
     text = written[1].read_text()
-    end = "(bias at an end of the range tried)"
-    assert f"PCSS, filtered, by radius: bias 3, 3 {end}; over time: bias 1 {end}." in text
+    ends = (f"({name} at an end of the range tried)" for name in ("bias", "share"))
+    sentence = (
+        "PCSS, filtered, by radius: bias 3, 3 {}; of its history, on validation sequences: share 0.2 {}."
+    )
+    assert sentence.format(*ends) in text
     assert "machine: 1 ray, OIDN." in text and "light of 0.25 S radius" in text
     assert "[95 % over 12 frames in 2 scenes, room, tree; not valid for others]" in text
     assert "unseen scenes: tree" in text and "FLIP ↓" not in text  # of which there is none here

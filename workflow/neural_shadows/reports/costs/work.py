@@ -283,8 +283,9 @@ def tune(layout: Layout, frame_set: str, group: str, method: str) -> Work:
     if frame_methods.has_history(method):
         in_sequences = len(frame_sets.tuned_sequences(layout, frame_set))
         in_sequences *= RUN_IN + layout.frames(frame_set)["sequence"]
-        # A later round repeats most of the first.
-        of_history = (1 + ROUNDS_OF_HISTORY) / 2 * sum(map(len, tuned.of_history.values()))
+        # A later round repeats most of the first, of one constant all.
+        rounds = (1 + ROUNDS_OF_HISTORY) / 2 if len(tuned.of_history) > 1 else 1
+        of_history = rounds * sum(map(len, tuned.of_history.values()))
         answers += of_history * SHARED_BY_A_HISTORY * in_sequences * _size(layout, frame_set)
     return Work(LIGHT_START, 5.0 * pixels) + _answers(layout, method, answers)
 

@@ -296,8 +296,9 @@ def _describe_constants(
         candidates = record["candidates"]
         sentence = f"{labels[method]}, by radius: {_describe_choices(candidates, record['radii'])}"
         if "history" in record:
-            candidates = candidates | record.get("of_history", {})
-            sentence += f"; over time: {_describe_choices(candidates, [record['history']])}"
+            candidates = candidates | record["of_history"]
+            of_history = _describe_choices(record["of_history"], [record["history"]])
+            sentence += f"; of its history, on validation sequences: {of_history}"
         tried |= {(name, value) for name, values in candidates.items() for value in values}
         sentences.append(f"{sentence}.")
     if not sentences:
