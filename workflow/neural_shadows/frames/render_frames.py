@@ -24,7 +24,9 @@ from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 from neural_shadows.settings.records import FrameSettings, GeneratedScene
 
-_TWINS = 7  # random stream of perturbed frames, as of those that the shipped weights were trained on
+_TWINS = (
+    7  # random stream of perturbed frames, as of those that the shipped weights were trained on
+)
 
 
 def render_frames(

@@ -129,7 +129,7 @@ class RenderedFrames(Model):
     moving: list[name_in("scenes")] | None = Field(
         None,
         min_length=1,
-        description="scenes of `scenes` and `unseen` with sequences; without it the first",
+        description="scenes of `scenes` and `unseen` with measured sequences; without it the first",
     )
     shard: int = Field(16, ge=1, le=10_000, description="frames per file, and per job")
     twins: Perturbed = Field(

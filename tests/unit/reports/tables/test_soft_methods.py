@@ -108,9 +108,7 @@ def test_what_looks_at_a_map_waits_for_it(written):
 def test_notes_say_constants_and_where_they_end(written):
     text = written[1].read_text()
     ends = (f"({name} at an end of the range tried)" for name in ("bias", "share"))
-    sentence = (
-        "PCSS, filtered, by radius: bias 3, 3 {}; of its history, on validation sequences: share 0.2 {}."
-    )
+    sentence = "PCSS, filtered, by radius: bias 3, 3 {}; of its history, on validation sequences: share 0.2 {}."
     assert sentence.format(*ends) in text
     assert "machine: 1 ray, OIDN." in text and "light of 0.25 S radius" in text
     assert "[95 % over 12 frames in 2 scenes, room, tree; not valid for others]" in text
