@@ -58,7 +58,7 @@ DENOISERS = {
         # In print σ is 4 and passes are five [4.3, 4.4]; of visibility fewer left 10 to 44 % less, by σ_z of 1.
         # One after the other, the two left up to 1.8 times what they leave together. σ of 64 and 128 leave 1.6 and
         # 2.2 % less than 32 at most (four rays, validation frames): the weight is all but gone by then.
-        {"sigma_luminance": (1.0, 2.0, 4.0, 8.0, 16.0, 32.0), "passes": (1, 2, 3, 5)},
+        {"sigma_luminance": (1.0, 2.0, 4.0, 8.0, 16.0, 32.0), "passes": (0, 1, 2, 3, 5)},
         joint=True,
         of_history={"share": (0.1, 0.2, 0.4, 0.7, 0.85, 1.0)},
     ),
