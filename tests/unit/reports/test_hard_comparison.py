@@ -21,7 +21,7 @@ def test_frames_are_stored_without_loss_beside_their_scores(tmp_path):
         "★ Reference",
         "■ A map (shadow_map_128)",
         "■ A map (shadow_map_512)",
-        "● Network",
+        "✶ Network",
     ]
     assert (data["left"], data["right"]) == ("dragon", "reference")
     shown = data["views"][1]["pictures"]["dragon"]

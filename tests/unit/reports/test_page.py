@@ -33,7 +33,7 @@ def test_text_from_the_config_is_shown_not_run(text):
     assert data["title"].startswith(f"dragon: {HOSTILE}")
     assert [method["name"] for method in data["methods"]] == [
         "★ Reference",
-        *(f"{symbol} {label}" for symbol, label in zip("■■●", LABELS.values())),
+        *(f"{symbol} {label}" for symbol, label in zip("■■✶", LABELS.values())),
     ]
 
 

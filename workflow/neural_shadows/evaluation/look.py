@@ -13,8 +13,8 @@ FALSE_SHADOW, LIGHT_LEAK = ORANGE, BLUE  # red and blue, distinct for any eye
 class Look:
     """Name and symbol of a kind of method.
 
-    `colour` is of Okabe and Ito's, or a grey; `marker` is matplotlib's, a name or a polygon, and `symbol`
-    the character that looks like it; `sentence` describes the method. `joined`: figures join its methods by a
+    `colour` is of Okabe and Ito's, or a grey; `marker` is matplotlib's, a name, a polygon or a character, and
+    `symbol` the character that looks like it; `sentence` describes the method. `joined`: figures join its methods by a
     line, as one method with more and more rays.
     """
 

@@ -99,12 +99,12 @@ DENOISERS = {
     ),
     "oidn_fast": Denoiser(
         "OIDN fast",
-        _look("Open Image Denoise fast", ORANGE, "x", "✖", "denoised by a smaller network."),
+        _look("Open Image Denoise fast", ORANGE, "x", "✕", "denoised by a smaller network."),
         **_OIDN,
     ),
     "oidn": Denoiser(
         "OIDN",
-        _look("Open Image Denoise", ORANGE, "X", "✕", "denoised by a network."),
+        _look("Open Image Denoise", ORANGE, "X", "✖", "denoised by a network."),
         **_OIDN,
     ),
 }

@@ -7,7 +7,12 @@ from neural_shadows.evaluation.method import Method, rays_label
 
 LOOK = Look("rays", GREEN, "o", "●", "Sends a few rays from each pixel to the light.", joined=True)
 _SPREAD = Look(
-    "rays, spread", GREEN, "*", "★", "Sends each ray from another place of the pixel.", joined=True
+    "rays, spread",
+    GREEN,
+    (8, 1, 0),
+    "✴",
+    "Sends each ray from another place of the pixel.",
+    joined=True,
 )
 
 
