@@ -100,7 +100,8 @@ def test_a_job_that_fails(tmp_path, error, message):
     assert done.stderr == f"train: {message} [log: 'a job.log']\n"  # quoted: it has a space
     # In the order in which it was said, by whatever way.
     assert log.splitlines()[1:5] == SAID and log.endswith(done.stderr)
-    assert "Traceback (most recent call last)" in log and "in train" in log
+    traced = "Traceback (most recent call last)" in log and "in train" in log
+    assert traced != error.startswith("InputError")
 
 
 def test_a_log_on_a_full_disk(tmp_path):

@@ -30,8 +30,8 @@ def run_stage(
     """Call a stage's function with a job's files and params.
 
     The job's log begins with commit, code and machine. Output goes there, progress to the terminal as
-    well. On an error the process ends with status 1 after one line on the terminal; the traceback is
-    in the log.
+    well. On an error the process ends with status 1 after one line on the terminal; the traceback of any but
+    an `InputError` is in the log.
 
     Args:
         job: Snakemake's script object (`input`, `output`, `params`, `log`, `rule`, …).
@@ -68,7 +68,9 @@ def run_stage(
             line = f"{job.rule}: {_message(error)} [log: {shlex.quote(job.log[0])}]"
             # First, since the log's disk may be full.
             print(line, file=terminal)
-            print(traceback.format_exc(), line, sep="\n", file=log)
+            if not isinstance(error, InputError):  # whose line says what to do
+                traceback.print_exc(file=log)
+            print(line, file=log)
             _end(1)
         _end(0)
 

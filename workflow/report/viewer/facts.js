@@ -7,7 +7,8 @@ function rateOf(milliseconds) {
 
 // result: the side's of `refinement`, if it is there already.
 function factsOf({ stored, resident, rays, underSun }, sun, result) {
-  const percent = (share) => `${(100 * share).toFixed(2)} %`, mebi = 1 << 20;
+  const percent = (share) => share > 0 && share < 5e-5 ? "< 0.01 %" : `${(100 * share).toFixed(2)} %`;
+  const mebi = 1 << 20;
   const bytes = (count) => count < mebi / 10 ? `${(count / 1024).toFixed(0)} KiB` : `${(count / mebi).toFixed(2)} MiB`;
   const facts = [];
   if (stored !== undefined) facts.push(`${bytes(stored)} stored`);
