@@ -29,6 +29,7 @@ DPI = 150
 MOST_IN_LINE = 8  # entries of a legend below panels
 TITLE_LETTERS, NOTE_LETTERS = 9.5, 12.5  # an inch
 MOST_DECADES = 2.2  # of a logarithmic axis with labels between powers of ten
+LEAST_LABELS = 3  # of a logarithmic axis
 GRID = {"linewidth": 0.4, "alpha": 0.4}
 
 
@@ -52,17 +53,20 @@ def note_below(figure: Figure, text: str) -> None:
 
 def plain_numbers(axis: "Axis") -> None:
     """Label a logarithmic axis, with its data, by 0.5, 20, 5k, 2M, 1B."""
-    from matplotlib.ticker import LogLocator, NullFormatter
+    from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
     low, high = axis.get_view_interval()
     subs = (1, 2, 5) if high < 10**MOST_DECADES * low else (1,)
-    axis.set_major_locator(LogLocator(subs=subs, numticks=12))  # a single decade: no power of ten
+    locator = LogLocator(subs=subs, numticks=12)  # a single decade: no power of ten
+    if sum(low <= place <= high for place in locator.tick_values(low, high)) < LEAST_LABELS:
+        locator = MaxNLocator(LEAST_LABELS + 1, steps=(1, 2, 5, 10))  # less than from 1 to 5
+    axis.set_major_locator(locator)
     axis.set_major_formatter(lambda number, _: _short(number))
     axis.set_minor_formatter(NullFormatter())
 
 
 def _short(number: float) -> str:
-    size = min(max(int(log10(number)) // 3, 0), 3)
+    size = min(max(int(log10(max(number, 1))) // 3, 0), 3)
     return f"{number / 1000**size:g}{('', 'k', 'M', 'B')[size]}"
 
 

@@ -13,7 +13,7 @@ from neural_shadows.reports.data.frame_means import ERROR_COLUMNS, with_shown_er
 from neural_shadows.reports.data.table import read_table
 from neural_shadows.reports.drawing import style
 from neural_shadows.reports.drawing.chart import add_tooltip
-from neural_shadows.reports.drawing.style import Figure
+from neural_shadows.reports.drawing.style import Axes, Figure
 from neural_shadows.reports.tables import soft_summary
 from neural_shadows.sections.sections import Sections
 from neural_shadows.sections.table_figures import TableFigure
@@ -21,6 +21,7 @@ from neural_shadows.settings.base import Name
 
 NUMBERS = ("radius", *ERROR_COLUMNS)
 LINES = ("-", "--", ":")  # after all colours once, twice
+NAME = 0.045  # height of a line's name, a share of the axes'
 
 
 class Settings(TableFigure):
@@ -49,21 +50,50 @@ def radii_figure(table: pd.DataFrame, *, title: str) -> Figure:
         table: `method`, `label`, `radius`, `unit` and `ERROR_COLUMNS`.
     """
     table, name = with_shown_errors(table)
-    figure = style.new_figure(title, 8, 5.4)
+    table[["error", "error_low", "error_high"]] *= 1e4  # as in the tables
+    figure = style.new_figure(title, 9.5, 5.4)
     axes = figure.subplots()
     measured = table.dropna(subset="error")
-    looks = product(LINES, COLOURS)
+    looks, ends = product(LINES, COLOURS), []
     for (method, rows), (line, colour) in zip(measured.groupby("method", sort=False), looks):
         marker, label = look_of(method).marker, rows["label"].iloc[0]
         drawn = {"color": colour, "linestyle": line, "marker": marker, "markersize": 7}
-        drawn["label"] = label
         spread = [rows["error"] - rows["error_low"], rows["error_high"] - rows["error"]]
         bars = axes.errorbar(rows["radius"], rows["error"], spread, capsize=2, **drawn)
-        values = ", ".join(f"{1e4 * error:.1f}" for error in rows["error"])
+        values = ", ".join(f"{error:.1f}" for error in rows["error"])
         add_tooltip(bars.lines[0], f"{label}: {name} {values} × 10⁻⁴ by radius")
+        ends.append((label, colour, *rows[["radius", "error"]].iloc[-1]))
     axes.set(yscale="log", xlabel=f"radius of the light, {measured['unit'].iloc[0]}")
-    axes.set_ylabel(f"{name} of visibility, lower is better\n(bars: 95 % intervals)")
+    axes.set_ylabel(f"{name} of visibility, × 10⁻⁴,\nlower is better (bars: 95 % intervals)")
     style.plain_numbers(axes.yaxis)
     axes.grid(**style.GRID)
-    style.legend_below(figure, columns=3)
+    _name_lines(axes, ends)
     return figure
+
+
+def _name_lines(axes: Axes, ends: list[tuple[str, str, float, float]]) -> None:
+    """Write names beside the right ends of lines, apart from each other.
+
+    Args:
+        ends: name, colour, radius and error of each.
+    """
+    ends = sorted(ends, key=lambda end: end[3])
+    axes.get_figure().draw_without_rendering()  # for the scale of errors
+    to_share = axes.transData + axes.transAxes.inverted()
+    heights = [to_share.transform((radius, error))[1] for *_, radius, error in ends]
+    for k in range(1, len(ends)):
+        heights[k] = max(heights[k], heights[k - 1] + NAME)
+    for k, height in enumerate(heights):
+        heights[k] = min(height, 1 - NAME * (len(ends) - 1 - k))
+    for (label, colour, radius, error), height in zip(ends, heights):
+        line = {"arrowstyle": "-", "color": colour, "linewidth": 0.6, "relpos": (0, 0.5)}
+        axes.annotate(
+            label,
+            (radius, error),
+            (1.06, height),
+            textcoords="axes fraction",
+            va="center",
+            color=colour,
+            fontsize=9,
+            arrowprops=line,
+        )
