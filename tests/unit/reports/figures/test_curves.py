@@ -175,14 +175,13 @@ def test_panels_name_points_and_methods_without_a_cost(drawn):
     assert " ray traced: exact" in named[2][0] and own.get_xlabel().startswith("own time")
     # A map needs no building, and is a line to come below.
     assert {"512²", "256²"} <= named[3][0] and len(build.containers) == 4
-    circles = [line for line in stored.lines if line.get_marker() == "o"]
-    hollow = [line for line in circles if line.get_markerfacecolor() == "none"]
+    hollow = [line for line in stored.lines if line.get_markerfacecolor() == "none"]
     assert [line.get_xdata().tolist() for line in hollow] == [[2e6 / 1024]]
     legend = [text.get_text() for text in figure.legends[0].get_texts()]
     assert legend[0] == "shadow map" and legend[-2:] == ["not learned", "coded"]
     assert legend[-3] == "the best quality at each cost"  # what the grey line says
-    half = [line for line in stored.lines if line.get_fillstyle() == "bottom"]
-    assert [line.get_ydata().tolist() for line in half] == [[METHODS["field_biased"][3]]]
+    edged = [line for line in stored.lines if line.get_markeredgecolor() == "black"]
+    assert [line.get_ydata().tolist() for line in edged] == [[METHODS["field_biased"][3]]]
     assert "exact shadow" not in legend and "no method" not in legend
 
 

@@ -32,8 +32,8 @@ _PCF = Look(
 _16_BIT = Look(
     "16-bit shadow map",
     GREY,
-    "$⬠$",
-    "⬠",
+    "$◣$",
+    "◣",
     "A shadow map whose depths are stored in 16 bits: half the bytes.",
 )
 LARGEST = 32768  # texels along a side: the thesis's reference [4.1]

@@ -34,37 +34,37 @@ LOOKS = {
     "occupancy_field": Look(
         "occupancy field",
         BLUE,
-        "$◪$",
-        "◪",
+        "$▮$",
+        "▮",
         "A grid of small bricks at the object's surface, trained for occupancy; shadow rays march "
         "through it.",
     ),
     "ray_grid": Look(
         "ray grid",
         PINK,
-        "$◐$",
-        "◐",
+        "$♠$",
+        "♠",
         "Looks up trained values at points along the ray, and decodes them by a small network.",
     ),
     "occupancy_ray_grid": Look(
         "clipped ray grid",
         PINK,
-        "$◑$",
-        "◑",
+        "$♣$",
+        "♣",
         "A ray grid with points only at the surface.",
     ),
     "hash_grid": Look(
         "hash grid",
         PINK,
-        "$◒$",
-        "◒",
+        "$♥$",
+        "♥",
         "A ray grid that keeps its values in hash tables of several resolutions.",
     ),
     "mesh": Look(
         "mesh",
         GREEN,
-        "$◢$",
-        "◢",
+        "$▰$",
+        "▰",
         "Traces rays through the triangles themselves, decimated or whole. No training.",
     ),
     "distances": Look(
@@ -78,8 +78,8 @@ LOOKS = {
     "voxel_dag": Look(
         "voxels",
         YELLOW,
-        "$⬡$",
-        "⬡",
+        "$▚$",
+        "▚",
         "Small cubes, full or empty, equal ones stored once. No training.",
     ),
     "height_map": Look(

@@ -34,8 +34,8 @@ PRINTED = "printed"  # the key of the thesis's own values
 LINES = {NO_SHADOW: ":", PRINTED: "--"}  # methods with a quality and no cost
 NOT_SHOWN = "all_dark"
 PRINTED_NOTES = {True: " (of another LPIPS network)", False: " (mean, not pooled)"}
-HALF = {"fillstyle": "bottom", "markerfacecoloralt": "white"}
-CODED = {"color": "#555555", "marker": "o", "linestyle": ""} | HALF
+EDGE = {"markeredgecolor": "black", "markeredgewidth": 1.3}
+CODED = {"color": "#aaaaaa", "marker": "o", "linestyle": ""} | EDGE
 FRONT = {"color": "#bbbbbb", "linewidth": 1}
 MOST_IN_LINE = 2  # of the legend below a panel
 PANEL = 4.75, 3.8  # inches: 342 points, so that one panel fits a phone's 375 px
@@ -84,7 +84,7 @@ def pareto_figure(table: pd.DataFrame, costs: Sequence[str], *, title: str) -> F
     """Draw a scene's methods, a row of panels a cost.
 
     On the left LPIPS, or FLIP where there is none; on the right pooled PSNR, upwards better.
-    Unlearned networks are hollow, entropy-coded ones half filled. Methods without a cost and the
+    Unlearned networks are hollow, entropy-coded ones have a black edge. Methods without a cost and the
     thesis's printed values are lines.
 
     Args:
@@ -147,7 +147,7 @@ def _draw_panel(axes: Axes, points: pd.DataFrame, metric: str) -> pd.DataFrame:
     measured = methods.dropna(subset="cost")
     for row in measured.itertuples():
         look = _marker(row.look) | ({"markerfacecolor": "none"} if row.learned == "False" else {})
-        look |= HALF if row.coded == "True" else {}
+        look |= EDGE if row.coded == "True" else {}
         value = f"{short(row.value)} [{short(row.low)}, {short(row.high)}]{'' if errors else ' dB'}"
         text = f"{row.method}: {value}; {axes.get_xlabel()}: {short(row.cost)}"
         point_with_interval(axes, row.cost, row.value, (row.low, row.high), text, **look)
