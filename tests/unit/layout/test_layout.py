@@ -414,7 +414,7 @@ def test_what_is_made_by_default(desk):
 
 def test_a_page_is_told_its_questions_and_every_method_s_kind(desk):
     told = pages.page_arguments(desk)
-    assert len(told["questions"]) == 5
+    assert len(told["questions"]) == 7
     bytes_stored = {"claim": "coded_mesh_better_than_field", "figure": "figure_stored"}
     assert any(bytes_stored.items() <= one.items() for one in told["questions"])
     assert told["data"]["figure_front"] == "beyond"
