@@ -64,10 +64,12 @@ def _figure(config: Sections, name: str) -> Section:
 
 
 def _chapter(config: Sections, figure: str) -> Chapter:
+    if own := config.figures[figure].own_chapter:
+        return own
     if re.fullmatch(r"figure_\d+_\d+", figure):
         return "thesis"
     table = getattr(config.figures[figure], "table", None)
-    return config.tables[table].chapter_of() if table else config.figures[figure].own_chapter
+    return config.tables[table].chapter_of() if table else "extensions"
 
 
 def _scene(config: Sections, name: str) -> Section:

@@ -6,7 +6,7 @@ from pydantic import Field
 
 from neural_shadows.settings.base import Model, name_in
 
-Chapter = Literal["thesis", "extensions", "soft", "networks"]
+Chapter = Literal["thesis", "extensions", "soft", "networks", "costs"]
 
 
 class AnyReport(Model):
@@ -53,8 +53,9 @@ class AnyTable(AnyReport):
 class AnyFigure(AnyReport):
     """Common base of figures."""
 
-    # Of the page, without a number of the thesis and without a table, whose chapter it has.
-    own_chapter: ClassVar[Chapter] = "extensions"
+    own_chapter: ClassVar[Chapter | None] = (
+        None  # of the page; None: its table's, or the thesis's by its number
+    )
     needs_opengl: ClassVar[bool] = False  # for drawing
     folded: ClassVar[bool] = False  # collapsed on the page
 

@@ -46,6 +46,7 @@ class Settings(RowsFigure):
 
     tables = (networks.Settings,)
 
+    own_chapter = "costs"
     kind: Literal["pareto"] = Field(description="`pareto`")
     scene: Name = Field(description="a scene of that table")
     costs: list[Literal[tuple(COSTS)]] = Field(

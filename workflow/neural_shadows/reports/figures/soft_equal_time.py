@@ -26,6 +26,7 @@ class Settings(RadiiFigure):
     """Error over milliseconds of methods for soft shadows."""
 
     tables = (soft_methods.Settings,)
+    own_chapter = "costs"
     kind: Literal["soft_equal_time"] = Field(description="`soft_equal_time`")
     radii: list[int] | None = Field(
         None,

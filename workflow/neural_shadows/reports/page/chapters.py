@@ -30,6 +30,11 @@ CHAPTERS: Mapping[Name, tuple[str, str]] = {
         "Neural Shadow Mapping (Datta et al. 2022), kernel prediction (Hu et al. 2025) and a network of "
         "our own answer a whole frame from its G-buffer and a shadow map or two rays a pixel.",
     ),
+    "costs": (
+        "Where each method wins: bytes and time",
+        "Quality over the bytes that a method stores, for hard shadows, and error over the time of a frame, "
+        "for soft ones.",
+    ),
 }
 # So many tables are shown open.
 FEW = 3
