@@ -21,6 +21,7 @@ from neural_shadows.reports.page.claim_cards import SOURCES
 
 MARK = re.compile(r"<!-- numbers( by column)?:(?: of (\d):)? ([^>]+\.csv) -->\n\n?((?:\|.*\n)+)")
 SAID = re.compile(r"<!-- numbers:(?: of (\d):)? ([^>]+\.csv) -->")
+MEASURED = re.compile(r"\d (?:dB|ms|frames a second)\b")  # is always of a CSV
 ITEMS = r"\n\s*\n|\n(?=\s*(?:-|\d+\.) |#|\|)"  # paragraphs, list items and headings begin so
 NO_PROSE = re.compile(
     r"<!--(?! numbers:).*?-->|\]\([^)]*\)", re.S
@@ -59,6 +60,14 @@ def said(text: str) -> Iterator[tuple[str, str, str]]:
             if words := " ".join(block[start : mark.start()].split()):
                 yield words, mark[1], mark[2]
             start = mark.end()
+
+
+def unmarked(text: str) -> list[str]:
+    """Prose with a measured number and no file behind it."""
+    tails = (
+        SAID.split(block)[-1] for block in re.split(ITEMS, NO_PROSE.sub("", MARK.sub("\n", text)))
+    )
+    return [" ".join(tail.split()) for tail in tails if MEASURED.search(tail)]
 
 
 def _unknown(

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from claimed_numbers import MARK, miscounts, mistakes, said
+from claimed_numbers import MARK, miscounts, mistakes, said, unmarked
 
 ROOT = Path(__file__).parents[3]
 REFERENCE = ROOT / "reports/reference"
@@ -26,6 +26,7 @@ def test_tables_have_the_numbers_of_their_files(text):
     assert text.parent != REFERENCE or [*said(content)]
     assert mistakes(content, folder) == []
     assert miscounts(content, folder) == []
+    assert unmarked(content) == []
 
 
 @pytest.mark.parametrize(
@@ -86,3 +87,8 @@ def test_verdicts_are_counted_by_text(tmp_path):
     (fault,) = miscounts(more, tmp_path)
     assert "Datta et al. 2022" in fault
     assert miscounts(more.replace("claims.csv", "claims.csv newer.csv"), tmp_path) == []
+
+
+def test_a_measured_number_without_a_file_is_found():
+    text = "A map takes 11 ms. <!-- numbers: some.csv --> Of 512 texels.\n\n- PCSS has 24.6 dB.\n"
+    assert unmarked(text) == ["- PCSS has 24.6 dB."]
