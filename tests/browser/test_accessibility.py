@@ -1,12 +1,15 @@
-"""axe-core, a checker of accessibility, finds no fault in the page: contrast, names, headings."""
+"""Checkers find no fault in a page: axe-core of contrast, names and headings, html5lib of HTML."""
 
 import pytest
+from checkout import ROOT
 from report_page import make_page
 
 
-@pytest.fixture(scope="module")
-def sample(tmp_path_factory):
-    return make_page(tmp_path_factory.mktemp("page"))
+@pytest.fixture(scope="module", params=["sample", "reference"])
+def html(request, tmp_path_factory):
+    if request.param == "sample":
+        return make_page(tmp_path_factory.mktemp("page"))
+    return ROOT / "reports/reference/index.html"
 
 
 def faults(page):
@@ -18,11 +21,19 @@ def faults(page):
     return {fault["id"]: [node["target"] for node in fault["nodes"]][:5] for fault in violations}
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("width", [375, 1280])
-def test_a_page_has_no_fault_folded_or_unfolded(browser, sample, width, scheme):
+@pytest.mark.parametrize(("width", "scheme"), [(375, "light"), (1280, "dark")])
+def test_a_page_has_no_fault_folded_or_unfolded(browser, html, width, scheme):
     page = browser.new_page(viewport={"width": width, "height": 900}, color_scheme=scheme)
-    page.goto(sample.as_uri())
+    page.goto(html.as_uri())
     assert faults(page) == {}
     page.evaluate("for (const one of document.querySelectorAll('details')) one.open = true")
     assert faults(page) == {}
+
+
+def test_a_page_is_valid_html(html):
+    html5lib = pytest.importorskip(
+        "html5lib", reason="no html5lib: pip install -r envs/browser.txt"
+    )
+    parser = html5lib.HTMLParser()
+    parser.parse(html.read_text(encoding="utf-8"))
+    assert parser.errors == []
