@@ -125,8 +125,21 @@ def test_lines_of_logs_are_read_as_they_are_written():
     assert read_log_line("train: 27 % of 6.14M samples") is None
 
 
+REFERENCE = ROOT / "reports/reference"
+
+
 def test_files_of_reference_runs_are_those_of_their_manifests():
-    for path in (ROOT / "reports" / "reference").glob("*/manifest.json"):
+    for path in REFERENCE.glob("**/manifest.json"):
         for name, file in json.loads(path.read_text())["files"].items():
             if (path.parent / name).exists():  # some are left out
                 assert sha256_of(path.parent / name) == file["sha256"], path.parent / name
+
+
+def test_each_file_of_the_reference_is_in_its_list_of_checksums():
+    """To be made again, in that folder: sha256sum $(git ls-files | grep -v -e README.md -e SHA256SUMS) > SHA256SUMS."""
+    listed = dict(
+        reversed(line.split("  ")) for line in (REFERENCE / "SHA256SUMS").read_text().splitlines()
+    )
+    files = [path for path in REFERENCE.glob("**/*") if path.is_file()]
+    of_runs = {path for path in files if path.name not in ("README.md", "SHA256SUMS")}
+    assert {str(path.relative_to(REFERENCE)): sha256_of(path) for path in of_runs} == listed
