@@ -1,4 +1,4 @@
-"""Record the README's moving picture: a light moves through the soft viewer, by three methods.
+"""Record the README's moving picture: a light moves through the soft viewer, by four methods.
 
 PYTHONPATH=tests python tests/browser/record_light.py reports/viewer_soft.html light.webp
 
@@ -20,11 +20,12 @@ from tqdm import trange
 
 METHODS = {
     "hard": "Shadow map",
-    "kernels_rays": "A network that filters two rays a pixel",
+    "cones": "Cones through distance fields",
+    "kernels_rays": "A network over two rays a pixel",
     "truth": "Ray traced",
 }
 PLACES, RADIUS = 14, 0.031  # of the light, m
-SIDE, GAP, HEADER, FONT_SIZE = 320, 8, 26, 14  # pixels
+SIDE, GAP, HEADER, FONT_SIZE = 260, 8, 24, 13  # pixels
 STILL = 0.5  # of 255, mean change in 1.5 s
 HIDDEN = "#viewer button, .over, .nudge, .rate, .legend, .reason {visibility: hidden !important}"
 
