@@ -67,8 +67,8 @@ def test_a_sequence_gets_better(frame, key):
     found = [step(one, at_rest) for one in frames]
     errors = [error(one, plate_truth()) for one in found]
     assert np.abs(found[0] - method(key, 1).answer(frame, RADIUS)).max() < 1e-6
-    # Of the SIGMA-like filter most is its blur, which frames do not lessen.
-    assert np.mean(errors[8:]) < {"svgf": 1 / 4, "sigma": 0.9}.get(key, 0.7) * errors[0]
+    # Of the SIGMA-like filter, alone and before the other, most is its blur, which frames do not lessen.
+    assert np.mean(errors[8:]) < {"svgf": 1 / 4, "ffx": 0.7}.get(key, 0.9) * errors[0]
 
 
 @pytest.mark.parametrize("key", ["svgf", "ffx"])
