@@ -2,7 +2,7 @@
 
 PYTHONPATH=tests python tests/browser/record_light.py reports/viewer_soft.html light.webp
 
-Two minutes for each of its places in a software renderer.
+In a software renderer three methods took two minutes for each of its places.
 """
 
 import argparse

@@ -119,7 +119,7 @@ def test_a_picture_without_history_is_still_smoothed_by_its_noise():
 
 @pytest.mark.parametrize("key", ["ffx", "sigma_ffx"])
 def test_a_share_of_one_is_no_history(key):
-    """So that a search among shares errs no more with a history than without, where it is made."""
+    """So a search that tries it does no worse, on its own frames, than without a history."""
     rng, filter_, before = np.random.default_rng(0), KINDS[key](HEIGHT, WIDTH, share=1.0), None
     for shift in (0.0, 0.02, 0.04, 0.06, 0.08):
         visibility, surface = noisy(plate_truth(shift), rng), plate_frame(shift).surface

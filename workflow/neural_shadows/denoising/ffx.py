@@ -117,7 +117,8 @@ class TemporalFfx:
 
     The history is the output of a frame's first pass. Where all around is dark or lit it begins anew.
     With the variance over frames, as in print, two rays erred 2.2 times as much by their history as without it
-    (12 sequences of moving cameras, lights and objects), with that of pixels 0.96 times.
+    (12 sequences of moving cameras, lights and objects), with that of pixels 0.96 times. At rest this costs: after 8
+    frames of one ray errors are 1.2 times those by the printed one, behind the SIGMA-like filter 1.3 times.
 
     Args:
         sigma: see SIGMA. passes: see PASSES. share: see SHARE. clamp: see CLAMP.

@@ -53,9 +53,8 @@ class AnyTable(AnyReport):
 class AnyFigure(AnyReport):
     """Common base of figures."""
 
-    own_chapter: ClassVar[Chapter | None] = (
-        None  # of the page; None: its table's, or the thesis's by its number
-    )
+    # Of the page; None: the thesis's by its number, or else its table's.
+    own_chapter: ClassVar[Chapter | None] = None
     needs_opengl: ClassVar[bool] = False  # for drawing
     folded: ClassVar[bool] = False  # collapsed on the page
 

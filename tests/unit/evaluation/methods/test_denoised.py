@@ -67,8 +67,10 @@ def test_a_sequence_gets_better(frame, key):
     found = [step(one, at_rest) for one in frames]
     errors = [error(one, plate_truth()) for one in found]
     assert np.abs(found[0] - method(key, 1).answer(frame, RADIUS)).max() < 1e-6
-    # Of the SIGMA-like filter, alone and before the other, most is its blur, which frames do not lessen.
-    assert np.mean(errors[8:]) < {"svgf": 1 / 4, "ffx": 0.7}.get(key, 0.9) * errors[0]
+    # Of the SIGMA-like filter most is its blur, which frames do not lessen. Behind it the noise of the pixels around
+    # is too large at rest: 0.81 is left, by that over frames 0.62 were, see `TemporalFfx`.
+    least = {"svgf": 1 / 4, "ffx": 0.7, "sigma": 0.9, "sigma_ffx": 0.9}
+    assert np.mean(errors[8:]) < least[key] * errors[0]
 
 
 @pytest.mark.parametrize("key", ["svgf", "ffx"])

@@ -94,6 +94,7 @@ def test_parts_by_scene_and_by_light(tmp_path, files):
     table_csv = tmp_path / "table.csv"
     text = samples.written_figure(soft_radii.draw, tmp_path, table_csv=table_csv)
     assert "PCSS: MSE 30.0, 60.0 × 10⁻⁴ by radius" in text
+    assert ">PCSS</text>" in text  # beside its line
 
 
 def test_the_temporal_error_is_that_of_light_and_eye_together(tmp_path, files):
