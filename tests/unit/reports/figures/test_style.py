@@ -11,6 +11,7 @@ from neural_shadows.reports.drawing.style import plain_numbers
     [
         ((0.07, 0.12), {"0.08", "0.1", "0.12"}),  # less than from 1 to 5, as an LPIPS may be
         ((2, 9), {"4", "8"}),
+        ((2, 400), {"5", "20", "200"}),  # over two decades, and two powers of ten
         ((1, 300), {"1", "10", "100"}),
         ((0.5, 2e6), {"1", "1k", "1M"}),
     ],

@@ -56,10 +56,13 @@ def plain_numbers(axis: "Axis") -> None:
     from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
     low, high = axis.get_view_interval()
-    subs = (1, 2, 5) if high < 10**MOST_DECADES * low else (1,)
-    locator = LogLocator(subs=subs, numticks=12)  # a single decade: no power of ten
-    if sum(low <= place <= high for place in locator.tick_values(low, high)) < LEAST_LABELS:
-        locator = MaxNLocator(LEAST_LABELS + 1, steps=(1, 2, 5, 10))  # less than from 1 to 5
+    powers, between = (LogLocator(subs=subs, numticks=12) for subs in ((1,), (1, 2, 5)))
+    even = MaxNLocator(LEAST_LABELS + 1, steps=(1, 2, 5, 10))  # less than from 1 to 5
+    wide = high > 10**MOST_DECADES * low
+    for locator in (powers, between, even) if wide else (between, even):
+        places = locator.tick_values(low, high)
+        if sum(low <= place <= high for place in places) >= LEAST_LABELS:
+            break
     axis.set_major_locator(locator)
     axis.set_major_formatter(lambda number, _: _short(number))
     axis.set_minor_formatter(NullFormatter())
