@@ -97,5 +97,5 @@ def test_claims_that_our_sentences_name_are_those_that_are_judged_today(name):
     }
     assert named
     stated = {one: {today[one.rpartition("/")[2]]["statement"]} for one in named}
-    named -= set(REWORDED)
+    named -= REWORDED
     assert {one: judged[one] for one in named} == {one: stated[one] for one in named}

@@ -86,16 +86,16 @@ def with_all_seeds():
 
 
 @functools.cache
+def of_all_seeds():
+    """Its layout."""
+    return Layout(resolved(with_all_seeds()))
+
+
 def test_statements_stand_alone():
     """A reader of the page meets each by itself."""
     of_another = re.compile(r"(?:It|Its|So|They|Their|Both its)\b|.*\bthat level\b")
     claims = of_all_seeds().settings["claims"].items()
     assert [name for name, claim in claims if of_another.match(claim["statement"])] == []
-
-
-def of_all_seeds():
-    """Its layout."""
-    return Layout(resolved(with_all_seeds()))
 
 
 def on_tables():
