@@ -30,13 +30,17 @@ def test_an_arrangement_needs_its_inserted_meshes_alone(layout):
     assert previews.modules(layout, "room_statue") == [generator_module("room")]
     settings = previews.settings(layout, "room_statue")
     assert settings["scene"]["inserted"] == {"statue": "z"}
-    assert settings["advice"] == "Next: snakemake reports/mine.csv, with the same options."
+    # Shipped tables have the frame set, too: a user's own is the last.
+    first, last = settings["advice"].split(", or another of ")
+    assert first == "Next, with the same options: snakemake reports/soft_methods.csv"
+    assert last.endswith("tables with it, the last reports/mine.csv.")
 
 
 def test_a_mesh_is_drawn_by_itself(layout):
     assert previews.kind(layout, "statue") == "preview"
     assert previews.modules(layout, "dragon") == []
     assert previews.files(layout, "statue").keys() == {"mesh_ply", "mesh_json"}
+    assert "snakemake reports/table_4_1.csv" in previews.settings(layout, "dragon")["advice"]
     # No table has it yet.
     assert "a table (`tables`) with statue" in previews.settings(layout, "statue")["advice"]
     with pytest.raises(InputError, match="'room_statu' \\(did you mean 'room_statue'"):

@@ -45,15 +45,17 @@ def settings(layout: Layout, scene: str) -> dict[str, Any]:
 
 
 def _advice(layout: Layout, scene: str) -> str:
-    """Next command to type, for the last table with the scene that is not on request.
+    """Next command to type: the first table with the scene that is not on request, and the last.
 
-    An overlay's tables come last, so that a user's own is named before shipped ones.
+    The thesis's tables come first, and an overlay's, which are a user's own, last.
     """
     default = [name for name, table in layout.settings["tables"].items() if not table["on_request"]]
     tables = [name for name in default if _has(layout, name, scene)]
     if not tables:
         return f"Next: a table (`tables`) with {scene} in its rows or its frame set."
-    return f"Next: snakemake {layout.paths.report(f'{tables[-1]}.csv')}, with the same options."
+    first, last = (layout.paths.report(f"{tables[place]}.csv") for place in (0, -1))
+    other = f", or another of {len(tables)} tables with it, the last {last}"
+    return f"Next, with the same options: snakemake {first}{other if first != last else ''}."
 
 
 def _has(layout: Layout, table: str, scene: str) -> bool:
