@@ -23,8 +23,6 @@ from neural_shadows.reports.tables.screen_temporal import ENDINGS
 
 # Folders of the run in which each table is once.
 PARTS = ("spanhoff_2026", "extensions", "soft_shadows", "datta_2022", "hu_2025")
-# Columns of `screen_temporal`, of which no committed run is yet.
-NEWER_THAN_THE_REFERENCE = ("mse_sequence_off_edges", "edge_width")
 
 
 @functools.cache
@@ -125,7 +123,7 @@ def numbers_of(name):
                 **dict.fromkeys(("runtime", "size", "error", "error_off_edges"), 1.0)
             )
         case "screen_temporal":
-            columns = dict.fromkeys([*pd.read_csv(path), *NEWER_THAN_THE_REFERENCE], 1.0)
+            columns = dict.fromkeys(pd.read_csv(path), 1.0)
             return pd.DataFrame(columns | {"null": np.nan, "label": with_taa(labels_of(name))})
         case "screen_errors" if path == reference:
             frames = layout.entry("frame_sets", table["frame_set"])
