@@ -78,8 +78,9 @@ class LightMap:
         Off a face's middle it is smaller: at a cube's edge 0.71 of it, the longer of the texel's sides, at
         its corner 0.58, where both sides are 0.47.
         """
-        along = np.max(np.einsum("fk,nk->nf", self.faces[:, 2], directions), axis=1)
-        return (2 * self.half / self.resolution * np.maximum(along, 1e-3)).astype(np.float32)
+        sizes = np.empty(len(directions), np.float32)
+        _fill_sizes(directions, self.faces[:, 2], 2 * self.half / self.resolution, sizes)
+        return sizes
 
 
 def cube_map(centre: np.ndarray, resolution: int) -> LightMap:
@@ -153,6 +154,17 @@ def _fill_places(directions, faces, half, resolution, into, places):
     for i in range(len(directions)):
         x, y, z = directions[i, 0], directions[i, 1], directions[i, 2]
         into[i], places[i, 0], places[i, 1] = place_of(x, y, z, faces, half, resolution)
+
+
+@njit(cache=True, nogil=True)
+def _fill_sizes(directions, forwards, middle, sizes):
+    for i in range(len(directions)):
+        along = 1e-3
+        for face in range(len(forwards)):
+            x, y, z = forwards[face]
+            dot = x * directions[i, 0] + y * directions[i, 1] + z * directions[i, 2]
+            along = max(along, dot)
+        sizes[i] = middle * along
 
 
 @njit(cache=True, nogil=True)
