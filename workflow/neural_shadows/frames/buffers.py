@@ -24,6 +24,7 @@ import numpy as np
 from numba import njit
 
 from neural_shadows.frames.soft_frame import SoftFrame
+from neural_shadows.meshes.lengths import lengths_of
 from neural_shadows.rendering.surface import Surface
 from neural_shadows.scenes.scene import Scene
 from neural_shadows.shadow_maps.light_map import LightMap
@@ -67,9 +68,9 @@ def buffers_of(scene: Scene, surface: Surface, light_map: LightMap) -> np.ndarra
 def channel_images(names: Collection[str], frame: SoftFrame) -> dict[str, np.ndarray]:
     """Compute the named channels of a frame, (height, width) float32."""
     size, from_light, normal = frame.scene.size, frame.from_light, frame.surface.n
-    z = np.linalg.norm(from_light, axis=1)
+    z = lengths_of(from_light)
     to_eye = frame.surface.camera.eye.astype(np.float32) - frame.surface.p
-    d = np.linalg.norm(to_eye, axis=1)
+    d = lengths_of(to_eye)
     values = {
         "z": (z - np.float32(frame.light_map.near)) / size,
         "d": d / size,
@@ -118,7 +119,7 @@ def _filtered(
     if "msm" in names:
         near, span = frame.light_map.near, 2 * frame.scene.size
         moments = np.empty((len(texels), 4))
-        distances = np.linalg.norm(frame.from_light, axis=1)
+        distances = lengths_of(frame.from_light)
         _fill_moments(frame.depths, texels, fractions, _KERNEL, (near, span), moments)
         visibility["msm"] = hamburger_visibility(moments, (distances - np.float32(near)) / span)
     return visibility

@@ -7,12 +7,13 @@ from typing import Any
 
 import numpy as np
 
+from neural_shadows.meshes.lengths import lengths_of
 from neural_shadows.rendering.light_shape import SPHERE, LightShape
 from neural_shadows.rendering.soft_shadows import OFFSET
 from neural_shadows.rendering.surface import Surface, see_surface
 from neural_shadows.scenes.scene import Scene
 from neural_shadows.shadow_maps.light_filters import receiver_bias
-from neural_shadows.shadow_maps.light_map import LightMap, distances_of
+from neural_shadows.shadow_maps.light_map import LightMap
 from neural_shadows.shadow_maps.rasterised_light_map import rasterised_depths
 
 
@@ -66,7 +67,7 @@ class SoftFrame:
     def cosines(self) -> np.ndarray:
         """Cosines of geometric normals with the light's direction, (n,) float32."""
         dots = np.einsum("ij,ij->i", self.from_light, self.surface.n_g)
-        return -dots / distances_of(self.from_light)
+        return -dots / lengths_of(self.from_light)
 
     @cached_property
     def bias(self) -> np.ndarray:

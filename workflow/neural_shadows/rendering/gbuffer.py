@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from neural_shadows.meshes.lengths import lengths_of
 from neural_shadows.scenes.cameras import Camera, Viewpoint, Window, camera_axes
 from neural_shadows.scenes.scene import Scene
 
@@ -79,7 +80,7 @@ def axis_cosines(camera: Camera, width: int, height: int) -> np.ndarray:
     A distance from the eye times its cosine is the depth along the axis.
     """
     directions = pixel_directions(camera, width, height)  # 1 long along the axis
-    return (1 / np.linalg.norm(directions, axis=1)).reshape(height, width)
+    return (1 / lengths_of(directions)).reshape(height, width)
 
 
 def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:

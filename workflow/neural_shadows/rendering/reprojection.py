@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 from scipy.ndimage import map_coordinates
 
+from neural_shadows.meshes.lengths import lengths_of
 from neural_shadows.rendering.surface import Surface
 from neural_shadows.scenes.cameras import Window, camera_axes
 
@@ -111,7 +112,7 @@ def _corners(
     rows = np.stack([np.minimum(r + down, height - 1) for down, _ in steps])
     pixels = rows * width + np.stack([np.minimum(c + along, width - 1) for _, along in steps])
     same = np.abs(depths[pixels] - depth) <= DEPTH_SHARE * np.abs(depth)
-    same &= np.linalg.norm(normals[pixels] - surface.n_g, axis=2) <= NORMAL_DISTANCE
+    same &= lengths_of(normals[pixels] - surface.n_g) <= NORMAL_DISTANCE
     return pixels, weights, same
 
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from neural_shadows.meshes.lengths import lengths_of
 from neural_shadows.rendering.gbuffer import interpolate, pixel_directions
 from neural_shadows.scenes.cameras import Camera, camera_axes
 from neural_shadows.scenes.scene import Scene
@@ -60,6 +61,6 @@ def see_surface(
     # On its own face's side, as `render_gbuffer` has it.
     opposed = np.einsum("ij,ij->i", n, n_g) < 0
     n = np.where(opposed[:, None], -n, n)
-    n /= np.maximum(np.linalg.norm(n, axis=1, keepdims=True), np.float32(1e-12))
+    n /= np.maximum(lengths_of(n)[:, None], np.float32(1e-12))
     p = interpolate(mesh.vertices, corners, u, v)
     return Surface(camera, width, height, pixel, face, p, n_g, n)

@@ -8,8 +8,9 @@ round the receiver's, so that they go on from face to face of a cube.
 import numpy as np
 from numba import njit
 
+from neural_shadows.meshes.lengths import lengths_of
 from neural_shadows.shadow_maps.light_discs import across, blockers, looked_up, vogel_disc
-from neural_shadows.shadow_maps.light_map import LightMap, distances_of
+from neural_shadows.shadow_maps.light_map import LightMap
 from neural_shadows.shadow_maps.slope import slope
 
 
@@ -29,7 +30,7 @@ def receiver_bias(
         from_light: (n, 3) from the light to receivers; cosines: (n,), see `slope`.
         reach: see `slope`; of a filtered map the filter's, too (a cone bias).
     """
-    distance = distances_of(from_light)
+    distance = lengths_of(from_light)
     texel = light_map.texel_size(from_light / distance[:, None]) * distance
     return (texel * slope(cosines, reach) + 1e-4 * scene_size).astype(np.float32)
 
@@ -40,7 +41,7 @@ def hard_visibility(
     """Hard visibility by one texel, 1 off the map: (n,) float32."""
     texels = light_map.texels_of(from_light)
     first = np.where(texels < 0, np.float32(np.inf), depths[texels])
-    return (distances_of(from_light) <= first + bias).astype(np.float32)
+    return (lengths_of(from_light) <= first + bias).astype(np.float32)
 
 
 def disc_visibility(

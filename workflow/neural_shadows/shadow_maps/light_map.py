@@ -106,11 +106,6 @@ def perspective_map(
     return LightMap(np.asarray(centre, np.float64), np.array([face]), half, resolution, near)
 
 
-def distances_of(vectors: np.ndarray) -> np.ndarray:
-    """Lengths of vectors (n, 3), (n,); a quarter of numpy's time."""
-    return np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
-
-
 @njit(cache=True, nogil=True, inline="always")
 def place_of(x, y, z, faces, half, resolution):
     """Face of a direction, or −1, and its row and column in texels."""

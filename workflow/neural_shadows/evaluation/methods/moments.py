@@ -42,10 +42,10 @@ def _visibility(
     sigma: float | None,
     bias: float,
 ) -> np.ndarray:
+    from neural_shadows.meshes.lengths import lengths_of
     from neural_shadows.shadow_maps import moments
     from neural_shadows.shadow_maps.filtered_moments import filtered_moments
     from neural_shadows.shadow_maps.light_filters import receiver_bias
-    from neural_shadows.shadow_maps.light_map import distances_of
 
     moments_of, bound = {
         "vsm": (partial(moments.powers, count=2), moments.variance_visibility),
@@ -54,7 +54,7 @@ def _visibility(
     }[kind]
     kernel = moments.box(size) if sigma is None else moments.gaussian(size, sigma)
     from_light = frame.from_light
-    distances = distances_of(from_light)
+    distances = lengths_of(from_light)
     # A light far outside the scene has receivers beyond this.
     near = frame.light_map.near
     farthest = float(distances.max(initial=2 * frame.scene.size))

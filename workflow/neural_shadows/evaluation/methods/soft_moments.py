@@ -39,12 +39,12 @@ def _visibility(
     nearest: float,
     least: float,
 ) -> np.ndarray:
+    from neural_shadows.meshes.lengths import lengths_of
     from neural_shadows.shadow_maps import moments
     from neural_shadows.shadow_maps.light_filters import receiver_bias
-    from neural_shadows.shadow_maps.light_map import distances_of
     from neural_shadows.shadow_maps.summed_moments import summed_views
 
-    light_map, distances = frame.light_map, distances_of(frame.from_light)
+    light_map, distances = frame.light_map, lengths_of(frame.from_light)
     near = light_map.near
     farthest = float(distances.max(initial=2 * frame.scene.size))
     radius = scale * radius
