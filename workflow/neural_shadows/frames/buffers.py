@@ -24,7 +24,7 @@ import numpy as np
 from numba import njit
 
 from neural_shadows.frames.soft_frame import SoftFrame
-from neural_shadows.meshes.lengths import lengths_of
+from neural_shadows.rendering.lengths import lengths_of
 from neural_shadows.rendering.surface import Surface
 from neural_shadows.scenes.scene import Scene
 from neural_shadows.shadow_maps.light_map import LightMap

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from neural_shadows.meshes.lengths import lengths_of
+from neural_shadows.rendering.lengths import lengths_of
 from neural_shadows.rendering.light_shape import SPHERE, LightShape
 from neural_shadows.rendering.soft_shadows import OFFSET
 from neural_shadows.rendering.surface import Surface, see_surface

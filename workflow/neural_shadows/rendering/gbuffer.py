@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neural_shadows.meshes.lengths import lengths_of
+from neural_shadows.rendering.lengths import lengths_of
 from neural_shadows.scenes.cameras import Camera, Viewpoint, Window, camera_axes
 from neural_shadows.scenes.scene import Scene
 

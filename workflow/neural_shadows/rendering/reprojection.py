@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 from scipy.ndimage import map_coordinates
 
-from neural_shadows.meshes.lengths import lengths_of
+from neural_shadows.rendering.lengths import lengths_of
 from neural_shadows.rendering.surface import Surface
 from neural_shadows.scenes.cameras import Window, camera_axes
 

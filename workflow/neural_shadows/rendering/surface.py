@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from neural_shadows.meshes.lengths import lengths_of
 from neural_shadows.rendering.gbuffer import interpolate, pixel_directions
+from neural_shadows.rendering.lengths import lengths_of
 from neural_shadows.scenes.cameras import Camera, camera_axes
 from neural_shadows.scenes.scene import Scene
 

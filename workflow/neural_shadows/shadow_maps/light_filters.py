@@ -8,7 +8,7 @@ round the receiver's, so that they go on from face to face of a cube.
 import numpy as np
 from numba import njit
 
-from neural_shadows.meshes.lengths import lengths_of
+from neural_shadows.rendering.lengths import lengths_of
 from neural_shadows.shadow_maps.light_discs import across, blockers, looked_up, vogel_disc
 from neural_shadows.shadow_maps.light_map import LightMap
 from neural_shadows.shadow_maps.slope import slope

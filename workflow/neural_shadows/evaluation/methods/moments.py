@@ -42,7 +42,7 @@ def _visibility(
     sigma: float | None,
     bias: float,
 ) -> np.ndarray:
-    from neural_shadows.meshes.lengths import lengths_of
+    from neural_shadows.rendering.lengths import lengths_of
     from neural_shadows.shadow_maps import moments
     from neural_shadows.shadow_maps.filtered_moments import filtered_moments
     from neural_shadows.shadow_maps.light_filters import receiver_bias

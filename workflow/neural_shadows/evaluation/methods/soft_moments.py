@@ -39,7 +39,7 @@ def _visibility(
     nearest: float,
     least: float,
 ) -> np.ndarray:
-    from neural_shadows.meshes.lengths import lengths_of
+    from neural_shadows.rendering.lengths import lengths_of
     from neural_shadows.shadow_maps import moments
     from neural_shadows.shadow_maps.light_filters import receiver_bias
     from neural_shadows.shadow_maps.summed_moments import summed_views
