@@ -34,14 +34,20 @@ def spiral(count: int) -> np.ndarray:
     return np.stack([numbers / count, numbers * _SECTION % 1])
 
 
-def spiral_shifts(shifts: np.ndarray, frame: int, count: int) -> np.ndarray:
+@njit(cache=True, nogil=True)
+def spiral_shifts(shifts, frame, count):
     """Shifts of a `spiral` of `count` samples by those of a sequence, elsewhere in each frame.
 
     Args:
         shifts: (n, rings, 2) in [0, 1).
     """
     # In this order means of eight frames of 3 to 12 rays err by 10 to 55 % less than in the other (half-planes).
-    return (shifts + frame * np.array(_GOLDEN[::-1])) % 1 / np.array([1, count])
+    turned = np.empty_like(shifts)
+    for i in range(len(shifts)):
+        for ring in range(shifts.shape[1]):
+            turned[i, ring, 0] = (shifts[i, ring, 0] + frame * _GOLDEN[1]) % 1
+            turned[i, ring, 1] = (shifts[i, ring, 1] + frame * _GOLDEN[0]) % 1 / count
+    return turned
 
 
 def ring_shares(radii: np.ndarray) -> np.ndarray:
