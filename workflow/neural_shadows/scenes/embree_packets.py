@@ -118,14 +118,25 @@ class EmbreePackets:
         _fill_occluded(self._scene, *rays, np.float32(end), _packet(), hit)
         return hit
 
-    def first_hit(self, origins: np.ndarray, directions: np.ndarray, end: float = _FOREVER):
+    def first_hit(
+        self,
+        origins: np.ndarray,
+        directions: np.ndarray,
+        end: float = _FOREVER,
+        together: bool = False,
+    ):
         """Nearest hit of each ray before `end`.
+
+        Args:
+            together: traverse neighbouring rays together, as `occluded` does. Its choice among hits at equal
+                distances varies; t of 4 million rays to a light was another in two rays at most, and took 0.41
+                to 0.59 of the time.
 
         Returns t, face, u, v, each (n,); face is −1 without a hit."""
         rays = _as_rays(origins, directions)
         face = np.empty(len(origins), np.int32)
         t, u, v = np.empty((3, len(origins)), np.float32)
-        _fill_hits(self._scene, *rays, np.float32(end), _packet(), t, face, u, v)
+        _fill_hits(self._scene, *rays, np.float32(end), together, _packet(), t, face, u, v)
         return t, face, u, v
 
 
@@ -169,14 +180,11 @@ def _fill_occluded(scene, origins, directions, end, packet, hit):
 
 
 @njit(cache=True, nogil=True)
-def _fill_hits(scene, origins, directions, end, packet, t, face, u, v):
-    """Fill nearest hits.
-
-    Never `_COHERENT`: its choice among hits at equal distances varies."""
+def _fill_hits(scene, origins, directions, end, together, packet, t, face, u, v):
     bits = packet.view(np.int32)
     for first in range(0, len(origins), WIDTH):
-        count, _ = _fill_packet(packet, bits, origins, directions, first, end)
-        bits[_ARGUMENTS, 0] = 0
+        count, narrow = _fill_packet(packet, bits, origins, directions, first, end)
+        bits[_ARGUMENTS, 0] = _COHERENT if narrow and together else 0
         for k in range(WIDTH):
             bits[_MESH, k] = bits[_INSTANCE, k] = -1
         _intersect8(
