@@ -24,7 +24,7 @@ import numpy as np
 from numba import njit
 
 from neural_shadows.frames.soft_frame import SoftFrame
-from neural_shadows.rendering.lengths import lengths_of
+from neural_shadows.rendering.lengths import lengths_and_cosines, lengths_of
 from neural_shadows.rendering.surface import Surface
 from neural_shadows.scenes.scene import Scene
 from neural_shadows.shadow_maps.light_map import LightMap
@@ -68,14 +68,14 @@ def buffers_of(scene: Scene, surface: Surface, light_map: LightMap) -> np.ndarra
 def channel_images(names: Collection[str], frame: SoftFrame) -> dict[str, np.ndarray]:
     """Compute the named channels of a frame, (height, width) float32."""
     size, from_light, normal = frame.scene.size, frame.from_light, frame.surface.n
-    z = lengths_of(from_light)
+    z, from_behind = lengths_and_cosines(from_light, normal)
     to_eye = frame.surface.camera.eye.astype(np.float32) - frame.surface.p
-    d = lengths_of(to_eye)
+    d, c_v = lengths_and_cosines(to_eye, normal)
     values = {
         "z": (z - np.float32(frame.light_map.near)) / size,
         "d": d / size,
-        "c_e": -np.einsum("ij,ij->i", from_light, normal) / z,
-        "c_v": np.einsum("ij,ij->i", to_eye, normal) / d,
+        "c_e": -from_behind,
+        "c_v": c_v,
         **dict(zip(_NORMAL, normal.T)),
     }
     if not values.keys() >= {*names}:  # a network of rays needs no map

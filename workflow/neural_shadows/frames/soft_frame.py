@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from neural_shadows.rendering.lengths import lengths_of
+from neural_shadows.rendering.lengths import lengths_and_cosines
 from neural_shadows.rendering.light_shape import SPHERE, LightShape
 from neural_shadows.rendering.soft_shadows import OFFSET
 from neural_shadows.rendering.surface import Surface, see_surface
@@ -66,8 +66,7 @@ class SoftFrame:
     @cached_property
     def cosines(self) -> np.ndarray:
         """Cosines of geometric normals with the light's direction, (n,) float32."""
-        dots = np.einsum("ij,ij->i", self.from_light, self.surface.n_g)
-        return -dots / lengths_of(self.from_light)
+        return -lengths_and_cosines(self.from_light, self.surface.n_g)[1]
 
     @cached_property
     def bias(self) -> np.ndarray:
