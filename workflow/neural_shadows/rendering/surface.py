@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numba import njit
 
-from neural_shadows.rendering.gbuffer import interpolate, pixel_directions
-from neural_shadows.rendering.lengths import lengths_of
+from neural_shadows.rendering.gbuffer import pixel_directions
 from neural_shadows.scenes.cameras import Camera, camera_axes
 from neural_shadows.scenes.scene import Scene
 
@@ -53,14 +53,34 @@ def see_surface(
     hit, face, u, v = scene.tracer.first_hit_barycentric(eye, directions)
     pixel = np.flatnonzero(hit)
     face, u, v = face[pixel], u[pixel], v[pixel]
-    corners = np.take(mesh.faces, face, axis=0).T
-    n_g = np.take(mesh.face_normals, face, axis=0)
-    n = interpolate(mesh.vertex_normals, corners, u, v)
-    averted = np.einsum("ij,ij->i", n_g, np.take(directions, pixel, axis=0)) > 0
-    n_g = np.where(averted[:, None], -n_g, n_g)
-    # On its own face's side, as `render_gbuffer` has it.
-    opposed = np.einsum("ij,ij->i", n, n_g) < 0
-    n = np.where(opposed[:, None], -n, n)
-    n /= np.maximum(lengths_of(n)[:, None], np.float32(1e-12))
-    p = interpolate(mesh.vertices, corners, u, v)
+    p, n_g, n = np.empty((3, len(pixel), 3), np.float32)
+    _fill_points(
+        mesh.vertices, mesh.vertex_normals, mesh.face_normals, mesh.faces,
+        directions, pixel, face, u, v, p, n_g, n,
+    )  # fmt: skip
     return Surface(camera, width, height, pixel, face, p, n_g, n)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _fill_points(
+    vertices, normals, face_normals, faces, directions, pixel, face, u, v, p, n_g, n
+):  # fmt: skip
+    """Points (n, 3) and both their normals, in a third of the time of numpy's functions."""
+    one, least = np.float32(1), np.float32(1e-12)
+    for i in range(len(pixel)):
+        a, b, c = faces[face[i]]
+        first = one - u[i] - v[i]
+        averted = opposed = squared = np.float32(0)
+        for k in range(3):
+            p[i, k] = first * vertices[a, k] + u[i] * vertices[b, k] + v[i] * vertices[c, k]
+            n[i, k] = first * normals[a, k] + u[i] * normals[b, k] + v[i] * normals[c, k]
+            n_g[i, k] = face_normals[face[i], k]
+            averted += n_g[i, k] * directions[pixel[i], k]
+        for k in range(3):
+            n_g[i, k] = -n_g[i, k] if averted > 0 else n_g[i, k]
+            opposed += n[i, k] * n_g[i, k]
+            squared += n[i, k] * n[i, k]
+        # On its own face's side, as `render_gbuffer` has it.
+        length = max(np.sqrt(squared), least)
+        for k in range(3):
+            n[i, k] = (-n[i, k] if opposed < 0 else n[i, k]) / length

@@ -73,7 +73,7 @@ class Tracer:
         Args:
             points, to_target: see `blocked`.
         """
-        t, *_ = self._rays.first_hit(points, to_target, NEARLY_ALL, together=True)
+        t, *_ = self._rays.first_hit(points, to_target, NEARLY_ALL)
         return np.minimum(t, np.float32(NEARLY_ALL))
 
 
@@ -93,7 +93,7 @@ class EmbreeSingly:
     def occluded(self, origins, directions, end: float | None = None) -> np.ndarray:
         return self._scene.run(origins, directions, query="OCCLUDED", dists=end) >= 0
 
-    def first_hit(self, origins, directions, end: float | None = None, together: bool = False):
+    def first_hit(self, origins, directions, end: float | None = None):
         hit = self._scene.run(origins, directions, query="INTERSECT", output=1, dists=end)
         face = hit["primID"]
         return np.where(face >= 0, hit["tfar"], np.float32(np.inf)), face, hit["u"], hit["v"]
