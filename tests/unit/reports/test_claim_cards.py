@@ -7,7 +7,10 @@ from neural_shadows.reports.page.claim_cards import Verdict, counted, number_tex
 @pytest.mark.parametrize(
     ("given", "said"),
     [
-        (("PSNR", "-0.6 [-1.1, -0.1]", 3), "advantage in PSNR: −0.6 [−1.1, −0.1] (3 comparisons)"),
+        (
+            ("PSNR", "-0.6 [-1.1, -0.1]", 3),
+            "advantage in PSNR: −0.6 [−1.1, −0.1] (the least favourable of 3 comparisons)",
+        ),
         (("PSNR", "+1.2e+03", 1), "advantage in PSNR: +1.2e+03"),
         (("own milliseconds", "ratio 2 [1.9, 2.1]", 1), "own milliseconds: ratio 2 [1.9, 2.1]"),
         (("", "", 1), ""),

@@ -236,6 +236,9 @@ def test_the_number_of_a_claim_is_of_the_comparison_that_decides():
     # Not the first that is negative.
     assert most_against([untested, supporting, chance, lost]) is lost
     assert most_against([untested, supporting]) is supporting and most_against([untested]) is None
+    # With too few seeds nothing is contradicted, but the number is of the same comparison.
+    one_seed = [each.without("1 seed of 3") for each in (supporting, chance, lost)]
+    assert most_against(one_seed) == one_seed[2] and verdict_of(one_seed) == verdicts.UNDECIDED
     outcome = judged(**FAILURES[verdicts.CONTRADICTED])
     assert (outcome["number_of"], outcome["number"][:6]) == ("LPIPS", "-0.05 ")
 

@@ -102,7 +102,7 @@ def test_a_reader_meets_the_scale_and_the_meanings_before_the_first_verdict(writ
         "**undecided (scale)**",
         "0.031 % of the thesis's samples,",
     )
-    assert f"Mesh of dragon: {SCENES['dragon']['mesh_name']} (a procedural stand-in" in text
+    assert f"Mesh of dragon: {SCENES['dragon']['mesh_name']} (generated" in text
 
 
 def test_screen_space_networks_are_trained_too(tmp_path):
@@ -123,7 +123,7 @@ def test_the_page_shows_them_as_cards(written):
     scale, *others = read_cards(md.with_suffix(".csv"))
     assert scale.verdict.style == "undecided-scale"
     assert scale.number.startswith("advantage in LPIPS: −0.1 [−0.") and scale.number.endswith(
-        "(2 comparisons)"
+        "(the least favourable of 2 comparisons)"
     )
     assert len(scale.evidence) == 2 and scale.evidence[0].startswith("LPIPS of net 0.2 against")
     assert {"not-comparable", "contradicted"} <= {card.verdict.style for card in others}

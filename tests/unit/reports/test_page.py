@@ -106,8 +106,8 @@ def test_what_is_not_made_yet_is_folded_at_the_end(tmp_path):
 def test_a_run_of_ones_own_is_no_reproduction(tmp_path, text):
     none = {"claims_json": None, "tables": [], "trainings": []}
     own = make_page(tmp_path, **none).read_text()
-    assert "Three texts say yes" in text and "a diamond the text" in text
-    assert "Three texts say yes" not in own and "<h1>Neural shadows: wyrm, " in own
+    assert "Two papers say yes" in text and "a diamond the text" in text
+    assert "Two papers say yes" not in own and "<h1>Neural shadows: wyrm, " in own
 
 
 def test_viewers_are_linked_by_their_titles(text):

@@ -35,7 +35,7 @@ def test_facts(tmp_path, monkeypatch):
     assert facts["durations"] == "evaluate 2 s (1 job); train 3 min (2 jobs)"
     said = run_sentence(RUN, SCENES, facts)
     assert said.startswith(
-        "3 networks beside shadow maps, on the meshes wyrm and fence (test scale"
+        "3 networks on rays beside shadow maps, on the meshes wyrm and fence (test scale"
     )
     assert said.endswith("; networks made on a CPU, 2 cores and on a CPU, 2 cores, A GPU.")
     assert facts["versions"].startswith(f"Python {python_version()}, snakemake ")

@@ -124,10 +124,10 @@ def test_the_thesis_says_nothing_of_another_mesh(written):
     table, md = written(thesis_mesh=False)
     theirs = ["thesis_lpips", "thesis_psnr", "psnr_minus_thesis", "thesis_map_lpips"]
     assert table[theirs].isna().all(axis=None)
-    assert "wyrm (a procedural stand-in, not the thesis's mesh)" in md.read_text()
+    assert "wyrm (generated, not the thesis's mesh)" in md.read_text()
     # What is made to its description stands beside its numbers, and is said to be made so.
     same = written(thesis_mesh=True)[1].read_text()
-    assert "wyrm (a procedural stand-in, not the thesis's mesh)" in same
+    assert "wyrm (generated, not the thesis's mesh)" in same
     _, md = written(thesis_mesh=False)
     assert "thesis PSNR" not in samples.cells_of(md, 0)
     assert "Title, mesh wyrm (after table 4.3 of the thesis)\n" in md.read_text()

@@ -114,7 +114,7 @@ def test_rows_keep_their_order_and_have_the_facts_of_their_kind(written):
     assert (cells["own ms ↓"], cells["frame ms ↓"], cells["bias"]) == ("2", "7", "0.01")
     # 1.34e+03 would be no number to the page.
     assert samples.cells_of(md, 5)["own ms ↓"] == "1,340"
-    assert "Mesh of fence: fence (a procedural stand-in, not the thesis's mesh)" in md.read_text()
+    assert "Mesh of fence: fence (generated, not the thesis's mesh)" in md.read_text()
     assert [samples.cells_of(md, i)["scene"] for i in (0, 1, 7)] == ["dragon", "", "fence"]
 
 

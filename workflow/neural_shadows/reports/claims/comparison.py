@@ -22,7 +22,8 @@ class Comparison:
         number: the advantage or another judged value with its interval, as text; empty without
             enough data. remark: text behind it.
         supports: its interval lies wholly on the claim's side.
-        against: p-value of the true advantage on the claim's side; 1 if the measured one is there.
+        against: p-value of the true advantage on the claim's side; 1 if the measured one is there. It decides
+            nothing where `untested`.
         seeds, samples: of the compared trainings; None without any.
         learning: over the learning curves, if any.
         incomparable: reason against a comparison of the methods, if any.
@@ -64,7 +65,7 @@ class Comparison:
 
     def without(self, missing: str) -> "Comparison":
         """The same undecided for missing data."""
-        return replace(self, supports=False, against=1.0, untested=missing)
+        return replace(self, supports=False, untested=missing)
 
 
 def judged(value: float, low: float, high: float, p: float) -> dict[str, object]:
@@ -110,7 +111,7 @@ def verdict_of(comparisons: Sequence[Comparison]) -> str:
 
 def against(comparisons: Sequence[Comparison]) -> list[Comparison]:
     """The comparisons against a claim by Holm's correction over all."""
-    adjusted = holm([comparison.against for comparison in comparisons])
+    adjusted = holm([1.0 if each.untested else each.against for each in comparisons])
     return [comparison for comparison, p in zip(comparisons, adjusted) if p <= LEVEL]
 
 

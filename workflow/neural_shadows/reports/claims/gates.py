@@ -176,7 +176,7 @@ def too_small(
         reasons.append(f"{_side(opposing, comparisons)} {where}")
     if reasons and (moving := direction_of(comparisons)):
         reasons.append(MOVING[moving])
-    return "; ".join(reasons)
+    return "; ".join(dict.fromkeys(reasons))
 
 
 def _side(opposing: Sequence[Comparison], comparisons: Sequence[Comparison]) -> str:

@@ -68,10 +68,10 @@ def is_own_mesh(mesh: MeshReport, scene: SceneInfo) -> bool:
 
 
 def describe_mesh(mesh: MeshReport, scene: SceneInfo) -> str:
-    """Describe a mesh: name, origin, size, watertight or open."""
-    stand_in = "a procedural stand-in, " if scene["procedural"] else ""
-    kind = "" if is_own_mesh(mesh, scene) else f" ({stand_in}not the thesis's mesh)"
-    closed = "watertight" if mesh["watertight"] else "open"
+    """Describe a mesh: name, origin, size, watertight or not."""
+    made = "generated, " if scene["procedural"] else ""
+    kind = "" if is_own_mesh(mesh, scene) else f" ({made}not the thesis's mesh)"
+    closed = "watertight" if mesh["watertight"] else "not watertight"
     return f"{mesh['name']}{kind}, {mesh['faces']:,} triangles, {closed}"
 
 

@@ -36,7 +36,7 @@ IN_SHORT = {
     NOT_LEARNED: "our network has learned too little to tell.",
     VACUOUS: "true here, and so it is with something untrained in the network's place.",
     TOO_SMALL: "we have too few samples, seeds or scenes to tell.",
-    UNDECIDED: "the measurements allow both.",
+    UNDECIDED: "not true in every comparison, and clearly untrue in none.",
     SUPPORTED: "true in each comparison.",
     CONTRADICTED: "clearly untrue in one comparison or more.",
 }

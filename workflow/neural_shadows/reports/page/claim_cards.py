@@ -84,7 +84,7 @@ def number_text(metric: str, number: str, comparisons: int) -> str:
     if not number:
         return ""
     advantage = "advantage in " if number.startswith(("+", "-")) else ""
-    of = f" ({comparisons} comparisons)" if comparisons > 1 else ""
+    of = f" (the least favourable of {comparisons} comparisons)" if comparisons > 1 else ""
     return f"{advantage}{metric}: {number.replace('-', '−')}{of}"
 
 

@@ -51,7 +51,7 @@ def run_sentence(run: Run, scenes: Mapping[str, SceneInfo], facts: Mapping[str, 
     *first, last = dict.fromkeys(scene["mesh_name"] for scene in scenes.values())
     meshes = f"meshes {', '.join(first)} and {last}" if first else f"mesh {last}"
     networks = facts.get("networks", "").split(",")[0]
-    methods = f"{networks} beside shadow maps" if networks else "Shadows without a network"
+    methods = f"{networks} on rays beside shadow maps" if networks else "Shadows without a network"
     machines = facts.get("networks made on", "").replace("; ", " and on ")
     return (
         f"{methods}, on the {meshes} ({run['scale']} scale, frames of "
