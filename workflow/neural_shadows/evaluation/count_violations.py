@@ -58,7 +58,11 @@ def count_violations(
             t = (t_pred + depth_bias).cpu().numpy()
             bounds = dual_bounds(tracer, rays.origins.cpu().numpy(), -light.cpu().numpy())
             true = truth[frame.lit_side][rays.index.cpu().numpy()]
-            drawn = random_depths(rays.s.cpu().numpy(), rays.chord.cpu().numpy(), seed=number)
+            own = [
+                *frame.view.eye.tobytes(),
+                *frame.view.light.tobytes(),
+            ]  # of each view other numbers
+            drawn = random_depths(rays.s.cpu().numpy(), rays.chord.cpu().numpy(), seed=own)
             counts = compare_depths(t, *bounds, lit, true)._asdict()
             of_random = compare_depths(drawn[0], *bounds, drawn[1], true)._asdict()
             counts |= {f"{RANDOM}{name}": count for name, count in of_random.items()}

@@ -18,9 +18,11 @@ from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.rendering.surface import see_surface
 from neural_shadows.running.progress import progress_bar
 
-# Milliseconds, of which a disturbance is a small share. Once each, fifteen methods take 18 s of a frame of
-# 2048 × 1024 under one light.
-_LONG = 100
+# Measured once each, methods of 0.3 s took up to twice as long as the same method under the next light.
+_AGREED = 1.05  # the two least of a call's times: then it is not repeated
+_LONG = 2000  # milliseconds of a call that is not repeated, of which a disturbance is a small share
+# What a renderer has. All else a method makes of it in its own time: biases, rays' origins.
+_GIVEN = ("from_light", "cosines", "depths")
 
 
 def times(
@@ -36,8 +38,8 @@ def times(
             name.
         methods: the experiment of each one's weights, or None. constants: of the tuned methods.
 
-    Returns: of each method and radius `ms`, the median over frames of the median over `repeats`, one
-        if it takes long, of the method alone; its light `map`, the numbers in a texel, and other bytes
+    Returns: of each method and radius `ms`, the median over frames of the `least` of up to `repeats`, of the
+        method alone; its light `map`, the numbers in a texel, and other bytes
         held. By the texels of a side, `maps`: the `ms` of rasterising it, and its `texels`. All `ms` are a
         window's `share` of those of its whole frame.
 
@@ -48,28 +50,34 @@ def times(
     radii = frames[0].part.radii
     timed, chosen = _opened(inputs, methods, constants, len(radii))
     own = frames[0].frame.light_map.resolution
-    sides = {name: method.resolution or own for name, method in timed.items()}
-    maps: dict[int, list[float]] = {side: [] for side in sorted({own, *sides.values()})}
+    side_of = {name: method.resolution or own for name, method in timed.items()}
+    sides = sorted({own, *side_of.values()})
+    maps: dict[int, list[float]] = {side: [] for side in sides}
     answer_ms = {name: np.zeros((len(frames), len(radii))) for name in timed}
     shares = [_share(measured.frame) for measured in frames]
     with progress_bar(len(frames) * len(radii), "frames", "time methods") as bar:
         for number, measured in enumerate(frames):
-            window, share = _prepared(measured.frame), shares[number]
-            frame = _prepared(_whole(window))
+            share, whole = shares[number], _whole(measured.frame)
+            windows, wholes = (
+                {side: _prepared(frame.with_map_of(side)) for side in sides}
+                for frame in (measured.frame, whole)
+            )
             for side, times in maps.items():
-                times.append(share * _map_ms(frame, side, repeats))
+                times.append(share * _map_ms(wholes[side], repeats))
             for k, radius in enumerate(measured.part.radii):
                 works = {
                     name: partial(_answer, method, constants=chosen[name][k], radius=radius)
                     for name, method in timed.items()
-                    if method.changes_at(chosen[name], k)
+                    if k == 0 or method.of_radius
                 }
                 # What is compiled, and what a method makes of a scene and a size: a point light's may be
                 # another path than that of all others. Cones through fields took five times as long at first.
-                for work in works.values() if k <= 1 else ():
-                    work(window if k == 0 else frame)
-                of_frame = {name: partial(work, frame) for name, work in works.items()}
-                milliseconds = medians(of_frame, repeats)
+                for name, work in works.items() if k <= 1 else ():
+                    work((windows if k == 0 else wholes)[side_of[name]])
+                of_frame = {
+                    name: partial(work, wholes[side_of[name]]) for name, work in works.items()
+                }
+                milliseconds = least(of_frame, repeats)
                 for name, each in answer_ms.items():
                     ms = milliseconds.get(name)
                     each[number, k] = each[number, k - 1] if ms is None else share * ms
@@ -89,7 +97,7 @@ def times(
         "methods": {
             name: {
                 "ms": np.median(each, axis=0).tolist(),
-                "map": str(sides[name]) if timed[name].texel_floats else None,
+                "map": str(side_of[name]) if timed[name].texel_floats else None,
                 "texel_floats": timed[name].texel_floats,
                 "held_bytes": _held(timed[name], frames),
             }
@@ -145,33 +153,40 @@ def _held(method: Method, frames: Sequence[MeasuredFrame]) -> float:
 
 
 def _prepared(frame: SoftFrame) -> SoftFrame:
-    """The frame with points, normals and map computed, as a renderer has them."""
-    for name in ("from_light", "cosines", "bias", "starts", "depths", "shown"):
+    """The frame with what is given computed."""
+    for name in _GIVEN:
         getattr(frame, name)
     return frame
 
 
 def _answer(method: Method, frame: SoftFrame, *, radius: float, constants: Constants) -> np.ndarray:
-    """A method's answer, without what it kept: surfaces at other places in the pixels, its rays."""
-    anew, kept = replace(frame), ("_by_places", "kept")
-    vars(anew).update({k: v for k, v in vars(frame).items() if k not in kept})
+    """A method's answer by what is given; not by what it, or another method, made of the frame before."""
+    anew = replace(frame)
+    vars(anew).update({name: getattr(frame, name) for name in _GIVEN})
     return visibility(method, anew, radius, constants)
 
 
-def _map_ms(frame: SoftFrame, side: int, repeats: int) -> float:
-    """Milliseconds of rasterising the light's map of side² texels."""
-    with_map = _prepared(frame.with_map_of(side))
-    return medians({"map": lambda: replace(with_map).depths}, repeats)["map"]
+def _map_ms(frame: SoftFrame, repeats: int) -> float:
+    """Milliseconds of rasterising the light's map."""
+    return least({"map": lambda: replace(frame).depths}, repeats)["map"]
 
 
-def medians(works: Mapping[str, Callable[[], Any]], repeats: int) -> dict[str, float]:
-    """Median milliseconds of each call, taking turns. Calls above `_LONG` run once."""
+def least(works: Mapping[str, Callable[[], Any]], repeats: int) -> dict[str, float]:
+    """Least milliseconds of each call, to which other load only adds; the calls take turns.
+
+    One runs until its two least times agree, `repeats` times at most; above `_LONG` once.
+    """
     times: dict[str, list[float]] = {name: [] for name in works}
     for _ in range(repeats):
         for name, work in works.items():
-            if times[name] and times[name][0] > _LONG:
+            if _is_enough(times[name]):
                 continue
             started = time.perf_counter()
             work()
             times[name].append(1000 * (time.perf_counter() - started))
-    return {name: float(np.median(each)) for name, each in times.items()}
+    return {name: min(each) for name, each in times.items()}
+
+
+def _is_enough(times: Sequence[float]) -> bool:
+    first, *others = sorted(times) or [0.0]
+    return first > _LONG or bool(others) and others[0] <= _AGREED * first

@@ -1,5 +1,6 @@
 """Violations of labels' bounds by a network's depth, and errors [5.1]."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -46,7 +47,9 @@ def compare_depths(
     return Violations(*(int(np.sum(mask)) for mask in counted))
 
 
-def random_depths(s: np.ndarray, chord: np.ndarray, seed: int) -> tuple[np.ndarray, np.ndarray]:
+def random_depths(
+    s: np.ndarray, chord: np.ndarray, seed: int | Sequence[int]
+) -> tuple[np.ndarray, np.ndarray]:
     """Draw depths uniformly along the chords (k,) of rays, with the answers that follow.
 
     Args:

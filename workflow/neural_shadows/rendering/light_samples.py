@@ -76,11 +76,13 @@ def _hashed(value):
 
 @njit(cache=True, nogil=True)
 def random_shifts(keys, rings):
-    """Shifts of `ring_vectors` by integer keys (n,), independent of each other: (n, rings, 2)."""
+    """Shifts of `ring_vectors` by integer keys (n,), independent of each other: (n, rings, 2).
+
+    Up to 16 rings, and keys below 2²⁷."""
     shifts = np.empty((len(keys), rings, 2))
     for i in range(len(keys)):
         for k in range(2 * rings):
-            shifts[i, k // 2, k % 2] = _hashed(keys[i] * 16 + k)
+            shifts[i, k // 2, k % 2] = _hashed(keys[i] * 32 + k)
     return shifts
 
 

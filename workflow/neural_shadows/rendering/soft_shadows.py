@@ -39,6 +39,7 @@ def soft_visibility(
     shape: LightShape = SPHERE,
     adaptive: bool = True,
     surfaces: Sequence[Surface] | None = None,
+    salt: int = 0,
 ) -> np.ndarray:
     """Trace visibility for each radius: (radii, height, width) float32.
 
@@ -50,10 +51,11 @@ def soft_visibility(
         adaptive: leave a ring at few rays where these and its neighbours' agree: less than 5e-4 off
             on average.
         surfaces: the camera's surfaces at the places, by default at `PLACES`.
+        salt: added to pixels as keys of `random_shifts`, for errors that are independent of another answer's.
     """
     rings = np.array([radius for radius in radii if radius > 0], np.float64)
     surfaces = surfaces or see_places(scene, camera, width, height)
-    light = shape, centre, rings
+    light = shape, centre, rings, salt
     places = [_Place(scene, surface, index, *light) for index, surface in enumerate(surfaces)]
     hard, mixed = (
         np.ones((height, width), np.float32),
@@ -119,9 +121,11 @@ class _Place:
         shape: LightShape,
         centre: np.ndarray,
         rings: np.ndarray,
+        salt: int,
     ):
         self.scene, self.surface, self.index = scene, surface, index
         self.shape, self.centre, self.rings = shape, np.asarray(centre, np.float64), rings
+        self.keys = surface.pixel + salt
         self.start = surface.p + np.float32(OFFSET * scene.size) * surface.n_g
 
     def hard(self, pixels: np.ndarray) -> np.ndarray:
@@ -164,7 +168,7 @@ class _Place:
             part = points[begin : begin + size]
             start = np.take(self.start, part, axis=0)
             vectors, origins = to_light[: len(part)], starts[: len(part)]
-            shifts = random_shifts(self.surface.pixel[part], len(self.rings))
+            shifts = random_shifts(self.keys[part], len(self.rings))
             self.shape.ring_vectors(start, shifts, run, self.centre, self.rings, counts, vectors)
             origins[:] = start[:, None]
             normals = np.take(self.surface.n_g, part, axis=0)

@@ -13,12 +13,15 @@ from neural_shadows.evaluation.method import visibility
 from neural_shadows.evaluation.method_parts import denoisers
 from neural_shadows.evaluation.method_parts.denoisers import BY_KEY
 from neural_shadows.evaluation.methods.denoised import METHODS
+from neural_shadows.evaluation.registry import frame_method
+from neural_shadows.frames import soft_frame
 from neural_shadows.frames.ray_tracing import (
     ray_traced,
     ray_traced_penumbrae,
     traced_images,
 )
 from neural_shadows.rendering.reprojection import Reprojection
+from neural_shadows.shadow_maps.light_filters import receiver_bias
 
 # At least how many times less the squared error of two rays is.
 FALLS = {"svgf": 6, "ffx": 12, "sigma": 12, "sigma_ffx": 12, "oidn_fast": 15, "oidn": 15}
@@ -112,6 +115,24 @@ def test_a_time_is_of_all_that_a_frame_takes(frame, monkeypatch):
     for _ in range(2):
         time_frames._answer(method("svgf", 1), frame, radius=RADIUS, constants={"passes": 1})
     assert calls == 2 * ["rays", "variance", "passes"]
+
+
+@pytest.mark.parametrize("key", ["hard", "pcf_3", "pcss_2048"])
+def test_the_time_of_a_map_has_its_bias_in_it(frame, monkeypatch, key):
+    """It was given to some methods, and others paid for theirs."""
+    calls = []
+
+    def counted(*receivers):
+        calls.append(receivers)
+        return receiver_bias(*receivers)
+
+    monkeypatch.setattr(soft_frame, "receiver_bias", counted)
+    asked = frame_method(key)
+    given = time_frames._prepared(frame.with_map_of(asked.resolution or frame.light_map.resolution))
+    first = {name: values[0] for name, values in asked.constants.items()}
+    for _ in range(2):
+        time_frames._answer(asked, given, radius=RADIUS, constants=first)
+    assert len(calls) == 2
 
 
 def test_quality_of_oidn_differs(frame):

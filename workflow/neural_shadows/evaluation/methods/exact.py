@@ -24,8 +24,8 @@ LOOK = Look(
     "A perfect shadow at each pixel's centre, without the antialiasing of the target.",
 )
 
-# Of each mixed pixel; as many as a target's eight samples have of one ring.
-_SAMPLES = 128
+_SAMPLES = 128  # of each mixed pixel: twice as many as a target of `measured: 8` has of one ring
+_SALT = 1 << 25  # other random numbers than the target's, and than those of few rays
 
 
 def _visibility(frame: "SoftFrame", radius: float) -> np.ndarray:
@@ -42,6 +42,7 @@ def _visibility(frame: "SoftFrame", radius: float) -> np.ndarray:
         radii=[radius],
         samples=_SAMPLES,
         surfaces=[surface],
+        salt=_SALT,
     )
     return images[0].ravel()[surface.pixel]
 

@@ -28,7 +28,7 @@ def describe_times(times: SoftTimes) -> list[str]:
         else ""
     )
     return [
-        f"ms: median of {times['frames']} frames, each the median of {times['repeats']}, or one of what "
+        f"ms: median of {times['frames']} frames, each the least of up to {times['repeats']}, or one of what "
         f"takes more than {times['once_above_ms']} ms, one thread of {times['machine']['cpu']}; with a light map "
         f"its rasterisation is included ({maps}){part}."
     ]

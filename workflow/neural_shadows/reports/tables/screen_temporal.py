@@ -8,6 +8,7 @@ from pydantic import Field
 from neural_shadows.frames.uses import RUN_IN, use_of
 from neural_shadows.metrics.kinds.sequences import ERRORS
 from neural_shadows.metrics.registry import metrics
+from neural_shadows.reports.data.frame_means import by_frame, mean_over_scenes
 from neural_shadows.reports.data.quality_cells import metric_column
 from neural_shadows.reports.data.soft_frames import TrainedFrames, learned_rows
 from neural_shadows.reports.data.table import Table, numbers
@@ -126,4 +127,4 @@ def _by_kind(errors: pd.DataFrame, metric: str, prefix: str) -> dict[str, float]
 
 
 def _mean(errors: pd.DataFrame, metric: str) -> float:
-    return float(errors[errors["metric"] == metric]["value"].mean())
+    return mean_over_scenes(by_frame(errors, metric))
