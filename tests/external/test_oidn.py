@@ -72,12 +72,16 @@ def test_the_same_picture(quality, hdr, measured):
     normal = np.zeros((HEIGHT, WIDTH, 3), np.float32)
     normal[row > 30] = [0, 0, 1]  # above it nothing is seen
     normal[(row > 30) & (column > 100)] = [0.6, 0.8, 0]
-    # As our way has it: white where it sees; half as bright where 1 would be taken for cut off.
+    depth = np.float32(2.0 ** (1 + column / WIDTH))
+    # As our way has it: logarithms of depth where it sees; half as bright where 1 would be taken for cut off.
     full = 1 if hdr else 0.5
     colour = np.repeat(visibility[..., None] * np.float32(full), 3, axis=2)
-    albedo = np.repeat(normal.any(2)[..., None], 3, axis=2).astype(np.float32)
+    seen = normal.any(2)
+    albedo = np.repeat((seen * column / (WIDTH - 1))[..., None], 3, axis=2).astype(np.float32)
     expected = np.clip(denoised(colour, albedo, normal, quality, hdr).mean(2) / full, 0, 1)
-    found = open_image_denoise(visibility, normal, quality=quality, light=0.0 if hdr else full)
+    found = open_image_denoise(
+        visibility, normal, depth, quality=quality, light=0.0 if hdr else full
+    )
     off = found - expected
     measured(
         f"OIDN {quality}, hdr {hdr}, ours beside its C functions: mean "

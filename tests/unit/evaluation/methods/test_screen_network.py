@@ -192,7 +192,7 @@ def test_times(folder):
     out = folder / "times.json"
     weights = [folder / "tiny/weights.safetensors"]
     parts = [folder / "blinds/test_000.json"]
-    methods = {"hard": None, "of_scenes": "tiny"}  # one of several networks is timed for all
+    methods = {"no_shadow": None, "of_scenes": "tiny"}  # one of several networks is timed for all
     time_methods(parts, [], [], weights, [], out, methods=methods, repeats=1)
     found = json.loads(out.read_text())["methods"]["of_scenes"]
     assert all(ms > 0 for ms in found["ms"])

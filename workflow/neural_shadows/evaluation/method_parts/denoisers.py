@@ -113,8 +113,8 @@ def _kept(kind: type) -> Callable:
 def _oidn(
     picture: np.ndarray, surface: Surface, *, quality: str, light: float = ANY_RANGE
 ) -> np.ndarray:
-    normal = surface.image(surface.n)
-    return open_image_denoise(picture, normal, quality=quality, light=light)
+    guides = surface.image(surface.n), surface.depth_image()
+    return open_image_denoise(picture, *guides, quality=quality, light=light)
 
 
 BY_KEY = {
