@@ -2,9 +2,9 @@
 
 Variance shadow maps: two moments, Chebyshev's bound (Donnelly and Lauritzen 2006); exponential ones
 (Lauritzen and McCool 2008); four moments, Hamburger (Peters and Klein 2015). Depth is the distance
-to the light over twice the scene's size, from the map's `near` on. Over the range that the scene has, VSM and
-EVSM erred up to 7 % less, but MSM up to 5 % and MSSM 8 to 21 % more (first test frames of nine scenes of
-`frames`, constants as chosen).
+to the light over twice the scene's size, from the map's `near` on. Over the range of the frame's points VSM
+9 × 9 erred 5 to 13 % less, MSM of 3 × 3 and 15 × 15 and MSSM from 2 % less to 3 % more (validation frames of
+`windows`, three lights, biases and bleeding anew).
 """
 
 from functools import partial
