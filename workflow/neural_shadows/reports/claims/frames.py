@@ -30,7 +30,9 @@ from neural_shadows.settings.records import SoftTimes
 METRICS = [*frame_metrics("soft"), *sequences.METRICS]
 # One of a pair: rays of its kind that take as long as the other, or as its first seed.
 EQUAL_TIME = {"rays_of_equal_time": r"rt_(\d+)", "ffx_rays_of_equal_time": r"rt_(\d+)_ffx"}
-ITS_BASE = "base"  # a null predictor by network: its base, or the light's map
+# A null predictor by network: its base, or the light's map; of rays as many independent ones, which err 6 to 9 %
+# less than the even ones that it gets.
+ITS_BASE = "base"
 
 not_learned = screen_networks.not_learned
 
