@@ -11,7 +11,7 @@ from opened import evaluate_frames, frame_method, settings_of
 from rendered_frames import FRAMES, render_part
 from threadpoolctl import threadpool_info
 
-from neural_shadows.denoising.taa import blended, recursive
+from neural_shadows.denoising.taa import ORDER, blended, recursive
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation import time_frames as timing
 from neural_shadows.evaluation.answers import read_answer
@@ -258,7 +258,7 @@ def test_taa_stands_behind_single_frames_in_the_place_of_a_history(folder):
         accepted, places = step.seen
         pixel, places = now.frame.surface.pixel[accepted], places[:, accepted]
         by_one = blended(single, pixel, looked_up(before, places))
-        before, shown = single, recursive(single, pixel, looked_up(shown, places))
+        before, shown = single, recursive(single, pixel, looked_up(shown, places, ORDER))
         for name, image_shown in (("taa", by_one), ("recursive", shown)):
             squares[name].append(np.square(image_shown - now.target[now.middle])[now.valid].mean())
     for name, each in squares.items():

@@ -62,6 +62,14 @@ def test_a_filter_keeps_its_own_side_s_history_along_an_edge(scene):
     assert hidden.sum() > 500 and found[hidden].mean() < 0.1
 
 
+def test_a_cubic_look_up_keeps_what_a_linear_one_blurs():
+    """A parabola half-way between two pixels, far from the rim."""
+    image = np.tile(np.arange(40.0) ** 2, (40, 1))
+    places = np.array([[19.5, 20.5], [20.0, 20.0]])
+    assert np.allclose(looked_up(image, places, 3), places[0] ** 2, atol=1e-2)
+    assert np.allclose(looked_up(image, places), places[0] ** 2 + 0.25, atol=1e-2)
+
+
 def test_a_moved_object_is_looked_up_where_it_was(scene):
     before = see_surface(scene, camera(), 240, 160)
     shifted = before.p + np.array([0.3, 0, 0], np.float32)

@@ -53,9 +53,10 @@ def flicker(
             continue
         accepted, places = step.seen
         pixel, places = step.now.frame.surface.pixel[accepted], places[:, accepted]
+        held = looked_up(past["_recursive"], places, taa.ORDER)
         past = {name: looked_up(image_before, places) for name, image_before in past.items()}
         shown["_taa"] = taa.blended(alone[-1], pixel, past["_single"])
-        shown["_recursive"] = taa.recursive(alone[-1], pixel, past["_recursive"])
+        shown["_recursive"] = taa.recursive(alone[-1], pixel, held)
         change = {name: new.ravel()[pixel] - past[name] for name, new in shown.items()}
         for name, each in change.items():
             changes[name].append(each)

@@ -116,7 +116,11 @@ def _corners(
     return pixels, weights, same
 
 
-def looked_up(image: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """Look up an image (H, W) at columns and rows (2, n): (n,) float32."""
+def looked_up(image: np.ndarray, places: np.ndarray, order: int = 1) -> np.ndarray:
+    """Look up an image (H, W) at columns and rows (2, n): (n,) float32.
+
+    Args:
+        order: of the spline, 1 linear, 3 cubic.
+    """
     column, row = places
-    return map_coordinates(image.astype(np.float32), [row, column], order=1, mode="nearest")
+    return map_coordinates(image.astype(np.float32), [row, column], order=order, mode="nearest")

@@ -45,8 +45,10 @@ class Denoiser:
 
     def _traced(self, frame: SoftFrame, radius: float, samples: int) -> tuple[np.ndarray, ...]:
         surface = frame.surface
-        if not self.distances:
-            return (surface.image(ray_traced(frame, radius, samples=samples, even=True), 1.0),)
+        if not self.distances or radius == 0:
+            visibility = surface.image(ray_traced(frame, radius, samples=samples, even=True), 1.0)
+            penumbra = np.where(visibility < 1, np.float32(0), np.float32(-1))  # blocked; free
+            return (visibility, penumbra)[: 1 + self.distances]
         visibility, penumbra = ray_traced_penumbrae(frame, radius, samples=samples, even=True)
         return surface.image(visibility, 1.0), surface.image(penumbra, -1.0)
 
@@ -57,14 +59,13 @@ def denoised(
     """Rays of one frame, then a denoiser: (n,) float32.
 
     Args:
-        radius: of the light, in the scene's unit; a point's shadow has no noise and stays as it is.
+        radius: of the light, in the scene's unit. A point's shadow has no noise, but steps that the target does
+            not have: filters smooth it, too.
         samples: rays of each pixel. denoiser: of `BY_KEY`.
 
     Raises:
         InputError: the denoiser's package is not installed.
     """
-    if radius == 0:
-        return ray_traced(frame, radius, samples=samples)
     pictures = BY_KEY[denoiser].pictures(frame, radius, samples)
     smooth = BY_KEY[denoiser].single(*pictures, frame.surface, **constants)
     return smooth.ravel()[frame.surface.pixel]
@@ -86,8 +87,6 @@ def sequence_denoiser(
     temporal = cache(partial(kind.temporal, **constants))
 
     def step(frame: SoftFrame, back: Reprojection | None) -> np.ndarray:
-        if radius == 0:
-            return ray_traced(frame, radius, samples=samples)
         surface = frame.surface
         pictures = kind.pictures(frame, radius, samples)
         filter_ = temporal(surface.height, surface.width)

@@ -4,10 +4,13 @@ With 64 samples of the search and 128 of the filter (Hu et al. 2025, 6.1). The c
 where blockers may begin, of the way from the map's near plane to a receiver, and so how widely they are
 searched: too widely, those of other penumbrae are averaged in (squared error under the largest light of
 `windows`, of the way from the light: 44 × 10⁻⁴ at 0.25, 27 as chosen). `scale` scales the light; a point
-light has the four tests round each receiver.
+light has the four tests round each receiver. Half the taps err 1 to 3 % more, in three quarters of the time
+(validation frames of `windows`). To end where the search finds blockers alone saves a fifth of it, and errs up to
+8 % more.
 """
 
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -29,7 +32,13 @@ LOOK = Look(
 
 
 def _visibility(
-    frame: "SoftFrame", radius: float, *, nearest: float, scale: float, bias: float
+    frame: "SoftFrame",
+    radius: float,
+    *,
+    taps: tuple[int, int],
+    nearest: float,
+    scale: float,
+    bias: float,
 ) -> np.ndarray:
     from neural_shadows.shadow_maps.box_filter import box_visibility
     from neural_shadows.shadow_maps.light_filters import soft_disc_visibility
@@ -42,6 +51,8 @@ def _visibility(
         frame.depths,
         *receivers,
         radius=scale * radius,
+        searched=taps[0],
+        samples=taps[1],
         nearest=nearest,
         keys=frame.surface.pixel,
     )
@@ -63,7 +74,8 @@ CONSTANTS = {
 # The filter's standard deviation in pixels; 0 is no filter. With 1.5 throughout, windows of a tree had
 # 3.8 times the error that PCSS has alone.
 _WIDTHS = {"width": (0.0, 0.35, 0.5, 0.7, 1.0, 1.5, 2.2)}
-_PCSS = Method(_visibility, CONSTANTS, "PCSS")
+_PCSS = Method(partial(_visibility, taps=(64, 128)), CONSTANTS, "PCSS")
+_FEW = Method(partial(_visibility, taps=(32, 64)), CONSTANTS, "PCSS, half the taps")
 _FINE = replace(_PCSS, label="PCSS, map of 2048²", resolution=2048)
 
 
@@ -76,6 +88,7 @@ def _with_filter(method: Method) -> Method:
 METHODS = {
     "pcss": _PCSS,
     "pcss_post": _with_filter(_PCSS),
+    "pcss_few": _FEW,
     "pcss_2048": _FINE,
     "pcss_2048_post": _with_filter(_FINE),
 }

@@ -73,7 +73,7 @@ def table(soft: TrainedFrames) -> Table:
         f"with a history of its own begins with {RUN_IN} frames at rest.",
         "TAA stands behind single frames, in the place of such a history: each frame averaged with "
         "the one before, at points seen in both, as in the text. Recursive, as engines have it: a "
-        "tenth of each frame is added to what was shown before, clipped to one standard deviation "
+        "tenth of each frame is added to what was shown before, looked up by a cubic spline and clipped to one standard deviation "
         "about the mean of 3 × 3 pixels; where rays differ it begins with the mean of the first frame "
         f"and {REST} at rest. Filters behind TAA have their constants for single frames.",
         "Edges: within 3 pixels of a point light's shadow edges, in test frames, of all lights. Edge "
