@@ -37,6 +37,15 @@ def widths(measured: MeasuredFrame, k: int) -> np.ndarray:
     return np.stack([measured_across, pixels])[:, (measured_across > 0) & (pixels >= NARROWEST)]
 
 
+def modelled_widths(measured: MeasuredFrame, k: int) -> np.ndarray:
+    """Widths above 0 by the model at all of a frame's pixels, (n,) pixels: of these the paper takes its bound."""
+    frame, radius = measured.frame, measured.part.radii[k]
+    focal = frame.surface.camera.focal(frame.surface.height)
+    of_light = frame.centre, radius, focal
+    pixels = model_widths(frame.scene, frame.surface, *of_light, shape=frame.shape)
+    return pixels[pixels > 0]
+
+
 def measured_widths(target: np.ndarray, near: np.ndarray, pixels: np.ndarray) -> np.ndarray:
     """Penumbra width through each pixel, (n,); NaN without an end.
 
