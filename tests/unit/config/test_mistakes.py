@@ -182,6 +182,7 @@ networks_by_scene.mine | {experiments: [nsm, nsm_plain], label: Mine} | networks
 networks_by_scene.nsm | {experiments: [nsm], label: Mine} | networks_by_scene.nsm: an entry of `experiments` has this name
 frame_sets.windows.unseen | [] | frame_sets.windows: moving: blinds, garden, stairs, tree, workshop: neither in `scenes` nor in `unseen`
 tables.mine | {kind: soft_summary, title: Mine, frame_set: sun, over: unseen, methods: [hard]} | tables.mine.over: frame_sets.sun has no `unseen`
+tables.kpnsm_radii.lights | [0, 9] | tables.kpnsm_radii.lights: 9 is not below 6, the number of radii of 'windows'
 tables.mine | {kind: centre_errors, title: Mine, frame_set: frames, methods: [pcss, hard]} | tables.mine.methods: lacks exact_centre
 frame_sets.nsm.sequence | 0 | tables.nsm_temporal.frame_set: frame_sets.nsm has sequence = 0
 frame_sets.windows.sequence | 0 | frame_sets.windows: moving: needs a `sequence`

@@ -37,7 +37,7 @@ def table(errors, labels=LABELS, own_ms=None):
         for method, ms in (own_ms or {}).items()
     }
     times = {"maps": {"8": {"ms": 5.0, "texels": 64}}, "methods": timed} if own_ms else None
-    return SoftTable(values, labels, times, RADII)
+    return SoftTable(values, labels, times, RADII, range(len(RADII)))
 
 
 def data(frames=20, noise=0.001, own_ms=OWN_MS, scenes=2, edges=None):

@@ -154,6 +154,12 @@ def shown_scenes(layout: Layout, table: str) -> list[str]:
     return frame_sets.measured_scenes(layout, settings["frame_set"])
 
 
+def lights(layout: Layout, table: str) -> list[int]:
+    """Numbers of the radii that count in a table's means."""
+    settings = layout.entry("tables", table)
+    return settings.get("lights") or [*range(len(layout.frames(settings["frame_set"])["radii"]))]
+
+
 def times(layout: Layout, table: str) -> list[str]:
     """Times of a table; none without a column, or of a user's frames."""
     own = layout.frames(frame_set(layout, table))["path"] is not None

@@ -107,7 +107,11 @@ def test_features_with_their_worth(made, tmp_path):
         shares.append(samples.write_record(tmp_path / f"{name}.json", {"features": found}))
     table, text = made(
         screen_features,
-        {"three": frames(0.02), "five": frames(0.01)},
+        {
+            "three": frames(0.02) + frames(9.0, scene="another"),  # which does not count
+            "five": frames(0.01),
+        },
+        measured=["plate_90"],
         sensitivities=shares,
         columns={"features_2": "three", "extraction": "five"},
         published="nsm.s1",
@@ -144,6 +148,7 @@ def steps(made, tmp_path):
             profiles=[samples.write_record(tmp_path / "trimmed.json", profile)],
             steps={name: step | {"precision": precision} for name, precision in names.items()},
             frames_json=None,
+            measured=["plate_90"],
             published=published,
         )
 

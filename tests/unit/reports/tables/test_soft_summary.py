@@ -49,7 +49,7 @@ def files(tmp_path):
 
 def summary(folder, files, **told):
     given = {"published": "kpnsm.1", "methods": ROWS, "by": None, "metrics": ["mse", "ssim"]}
-    given |= {"soft_times": None, "widths_json": None, "measured": ["room", "tree"]}
+    given |= {"soft_times": None, "widths_json": None, "measured": ["room", "tree"], "lights": None}
     data, md = samples.written_table(
         soft_summary.table,
         folder,
@@ -80,6 +80,13 @@ def test_some_scenes_alone_and_a_printed_grid(tmp_path, files):
     table, text = summary(tmp_path, files, **told)
     assert table.loc["mine", "mse"] == pytest.approx(0.003)
     assert table.loc["mine", "printed_mse"] == pytest.approx(10.19e-4) and "of tree, and" in text
+
+
+def test_some_lights_alone(tmp_path, files):
+    table, text = summary(tmp_path, files, lights=[1])
+    assert table.loc["mine", "mse"] == pytest.approx(0.001 * 2 * 1.5) and "and 1 radii of" in text
+    by_light, _ = summary(tmp_path, files, published=None, by="radius", lights=[1])
+    assert by_light["number"].tolist() == [1, 1]
 
 
 def test_parts_by_scene_and_by_light(tmp_path, files):

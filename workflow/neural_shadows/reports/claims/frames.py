@@ -38,11 +38,12 @@ not_learned = screen_networks.not_learned
 
 
 class TableSettings(TypedDict):
-    """Settings of a table of methods for soft shadows; `radii` as texts."""
+    """Settings of a table of methods for soft shadows; `radii` as texts, `lights`: numbers of those that count."""
 
     frame_set: str
     labels: dict[str, str]
     scenes: list[str]
+    lights: list[int]
     radii: list[str]
 
 
@@ -53,13 +54,14 @@ class SoftTable:
     Args:
         values: a row a frame (scene, part, frame), a column a (method, metric, radius).
         labels: by method; times: of `time_methods`, None without timing; radii: their
-            `light_sizes`.
+            `light_sizes`; lights: numbers of those of which means are.
     """
 
     values: pd.DataFrame
     labels: Mapping[str, str]
     times: SoftTimes | None
     radii: Sequence[str]
+    lights: Sequence[int]
 
     def milliseconds(self, method: str, radius: int | None) -> float:
         """Milliseconds of a frame, with its map's.
@@ -68,12 +70,12 @@ class SoftTable:
         """
         if self.times is None:
             return float("nan")
-        numbers = range(len(self.radii)) if radius is None else [radius]
+        numbers = self.lights if radius is None else [radius]
         return float(np.mean([cost(self.times, method, number)["ms"] for number in numbers]))
 
     def errors(self, method: str, metric: str, radius: int | None) -> pd.Series | None:
         """Errors of each frame, if measured; 1 − SSIM."""
-        radii = range(len(self.radii)) if radius is None else [radius]
+        radii = self.lights if radius is None else [radius]
         columns = [(method, metric, k) for k in radii]
         if any(column not in self.values for column in columns):
             return None
@@ -83,7 +85,10 @@ class SoftTable:
 
     def light(self, radius: int | None) -> str:
         """The light of a radius, or all, in words."""
-        size = "all lights" if radius is None else self.radii[radius]
+        every = (
+            "all lights" if len(self.lights) == len(self.radii) else f"{len(self.lights)} lights"
+        )
+        size = every if radius is None else self.radii[radius]
         return "a point light" if size == POINT else size
 
     def rays_about(

@@ -39,6 +39,7 @@ def arguments(layout: Layout) -> dict[str, Any]:
                 "frame_set": tables.frame_set(layout, table),
                 "labels": Report(layout, table, layout.entry("tables", table)).labels(),
                 "scenes": tables.shown_scenes(layout, table),
+                "lights": tables.lights(layout, table),
                 "radii": light_sizes(layout.frames(tables.frame_set(layout, table))),
             }
             for table in sorted(soft_tables - {None})

@@ -122,7 +122,8 @@ def _soft(
         of_frames = [path for path in metrics if path.parents[1].name == about["frame_set"]]
         measured = read_metrics(of_frames)
         values = soft_values(measured[measured["scene"].isin(about["scenes"])])
-        soft[table] = SoftTable(values, about["labels"], timed.get(table), about["radii"])
+        lights = about["radii"], about["lights"]
+        soft[table] = SoftTable(values, about["labels"], timed.get(table), *lights)
     return soft
 
 

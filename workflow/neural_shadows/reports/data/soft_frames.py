@@ -1,7 +1,7 @@
 """Methods for soft shadows on a frame set, with notes."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -111,6 +111,13 @@ class TrainedFrames(SoftFrames):
         """Rows of `read_metrics`; empty without any file."""
         paths = [*self.soft_metrics, *self.null_metrics]
         return read_metrics(paths) if paths else pd.DataFrame({"method": []})
+
+    def of_scenes(self, scenes: Sequence[str]) -> "TrainedFrames":
+        """The same of some scenes' frames."""
+        errors = self.errors
+        part = replace(self)
+        vars(part)["errors"] = errors[errors["scene"].isin(scenes)] if len(errors) else errors
+        return part
 
     @property
     def nulls(self) -> dict[str, str]:

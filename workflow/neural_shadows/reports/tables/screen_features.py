@@ -1,14 +1,16 @@
 """Errors of screen-space networks by their features (NSM, table S1)."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import pandas as pd
 from pydantic import Field
 
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.frames.feature_names import FEATURES
+from neural_shadows.layout import tables
+from neural_shadows.layout.layout import Layout
 from neural_shadows.reports.data.frame_means import describe_sample, squared_errors
 from neural_shadows.reports.data.published import printed_column, read_published, with_printed
 from neural_shadows.reports.data.soft_frames import TrainedFrames, learned_rows
@@ -32,6 +34,14 @@ class Settings(ColumnsTable):
         None, pattern=r"^nsm\.s1$", description="`nsm.` and the paper's number of this table"
     )
     kind: Literal["screen_features"] = Field(description="`screen_features`")
+    over: Literal["all", "trained", "unseen"] = Field(
+        "all",
+        description="whose test frames: those of all the set's scenes, of its `scenes` or of its `unseen`",
+    )
+
+
+def params(layout: Layout, table: str) -> dict[str, Any]:
+    return {"measured": tables.shown_scenes(layout, table)}
 
 
 def table(
@@ -40,6 +50,7 @@ def table(
     published_nsm_csv: Path,
     published: str | None,
     columns: Mapping[str, str],
+    measured: Sequence[str],
 ) -> Table:
     """Tabulate error and sensitivities by set of features.
 
@@ -49,7 +60,9 @@ def table(
         sensitivities: of `measure_sensitivity`, of each network.
         published: the paper's number of the table.
         columns: the experiment of each printed row.
+        measured: the scenes whose frames count.
     """
+    soft = soft.of_scenes(measured)
     shares = {path.stem: read_json(path)["features"] for path in sensitivities}
     whole = features_table(soft, columns, shares)
     # The paper gives two of these in its text (3.2) and the others in table S1.

@@ -3,7 +3,7 @@
 Datta et al. 2022, 3.5, figure 8; Hu et al. 2025, 4.2.1.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
@@ -69,6 +69,10 @@ class Settings(FramesTable):
         None, description="`nsm.steps`, the paper's printed numbers"
     )
     kind: Literal["screen_steps"] = Field(description="`screen_steps`")
+    over: Literal["all", "trained", "unseen"] = Field(
+        "all",
+        description="whose test frames: those of all the set's scenes, of its `scenes` or of its `unseen`",
+    )
     steps: dict[Name, Step] = Field(min_length=1, description="by the paper's names, in order")
 
     def methods_shown(self) -> list[str]:
@@ -95,7 +99,8 @@ def files(layout: Layout, table: str) -> dict[str, Any]:
 def params(layout: Layout, table: str) -> dict[str, Any]:
     steps = layout.entry("tables", table)["steps"].values()
     names = unique(step["experiment"] for step in steps if step["experiment"])
-    return {"labels": {name: frame_methods.label(layout, name) for name in names}}
+    labels = {name: frame_methods.label(layout, name) for name in names}
+    return {"labels": labels, "measured": tables.shown_scenes(layout, table)}
 
 
 def table(
@@ -105,6 +110,7 @@ def table(
     title: str,
     published: str | None,
     steps: Mapping[str, Mapping[str, Any]],
+    measured: Sequence[str],
 ) -> Table:
     """Tabulate time, size and error by step, beside printed numbers.
 
@@ -116,7 +122,9 @@ def table(
         profiles: of `profile_screen_network`, of the steps' networks.
         published: `nsm.steps`; None for steps that the paper does not print.
         steps: see `Step`, by its name in the paper.
+        measured: the scenes whose frames count.
     """
+    soft = soft.of_scenes(measured)
     profiled = {path.stem: read_json(path) for path in profiles}
     table = steps_table(steps, profiled, soft)
     printed_numbers = read_published(published_nsm_csv)

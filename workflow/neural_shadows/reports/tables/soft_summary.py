@@ -6,7 +6,7 @@ Hu et al. 2025, tables 1 to 4, figures 7 and 9.
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 import pandas as pd
@@ -72,6 +72,11 @@ class Settings(MethodsTable):
     by: Literal["scene", "radius"] | None = Field(
         None, description="a part of the table for each; without it one row a method"
     )
+    lights: list[Annotated[int, Field(ge=0)]] | None = Field(
+        None,
+        min_length=1,
+        description="numbers of the frame set's radii, from 0, that count; by default all",
+    )
     metrics: list[metric_in("soft", "time", "temporal_error")] = Field(
         ["mse", "ssim"],
         min_length=1,
@@ -94,6 +99,11 @@ class Settings(MethodsTable):
         super().check(config, key)
         if self.over == "unseen" and not getattr(config.frame_sets[self.frame_set], "unseen", ()):
             raise ValueError(f"{key}.over: frame_sets.{self.frame_set} has no `unseen`")
+        radii = len(getattr(config.frame_sets[self.frame_set], "radii", self.lights or ()))
+        if beyond := [number for number in self.lights or () if number >= radii]:
+            raise ValueError(
+                f"{key}.lights: {beyond[0]} is not below {radii}, the number of radii of {self.frame_set!r}"
+            )
 
 
 def params(layout: Layout, table: str) -> dict[str, Any]:
@@ -120,6 +130,7 @@ def table(
     by: str | None,
     metrics: Sequence[str],
     measured: Sequence[str],
+    lights: Sequence[int] | None,
 ) -> Table:
     """Tabulate methods, for each scene or radius if `by` names one.
 
@@ -129,11 +140,12 @@ def table(
         soft_times: of `time_methods`; None where `metrics` has no time.
         published: `kpnsm.` and the paper's number of the table; None without printed numbers.
         by: `scene`, `radius`, or None; metrics: of `Settings`.
-        measured: the scenes whose frames count.
+        measured: the scenes whose frames count; lights: the numbers of the radii that do, None for all.
     """
+    lights = lights or range(len(soft.radii))
     times = read_json(soft_times) if soft_times else {"methods": {}}
     printed_numbers = read_published(published_kpnsm_csv)
-    table = summary_table(soft, times, methods, by, metrics, measured)
+    table = summary_table(soft, times, methods, by, metrics, measured, lights)
     for metric in metrics:
         first = metric == metrics[0]  # the metric of `column`
         printed = [
@@ -147,7 +159,7 @@ def table(
         table = with_printed(table, metric, printed * (len(table) // len(methods)))
     table = table.assign(unit=soft.unit)
     notes = [
-        *_describe_frames(soft, metrics, measured, by),
+        *_describe_frames(soft, metrics, measured, lights, by),
         *soft.describe_widths(measured),
         *([_describe_sequences(soft.errors, measured)] if "temporal_error" in metrics else []),
         *([_describe_printed(metrics)] if published else []),
@@ -164,6 +176,7 @@ def summary_table(
     by: str | None,
     metrics: Sequence[str],
     measured: Sequence[str],
+    lights: Sequence[int],
 ) -> pd.DataFrame:
     """Tabulate methods, for each scene or radius if `by` names one.
 
@@ -174,11 +187,11 @@ def summary_table(
     Args:
         times: of `time_methods`; the others: as of `table`.
     """
-    errors, radii = soft.errors, soft.radii
-    frames = errors[errors["scene"].isin(measured)]
+    errors, radii = soft.errors, {number: soft.radii[number] for number in lights}
+    frames = errors[errors["scene"].isin(measured) & errors["radius"].isin(lights)]
     return pd.DataFrame(
         [
-            group | _row(group_frames, times, row, metrics, len(radii))
+            group | _row(group_frames, times, row, metrics, lights)
             for group, group_frames in _groups(frames, by, measured, radii)
             for row in methods
         ]
@@ -186,7 +199,7 @@ def summary_table(
 
 
 def _groups(
-    frames: pd.DataFrame, by: str | None, scenes: Sequence[str], radii: Sequence[float]
+    frames: pd.DataFrame, by: str | None, scenes: Sequence[str], radii: Mapping[int, float]
 ) -> Iterator[tuple[dict[str, Any], pd.DataFrame]]:
     """Key columns and frames of each part of the table."""
     match by:
@@ -194,7 +207,7 @@ def _groups(
             for scene in scenes:
                 yield {"scene": scene}, frames[frames["scene"] == scene]
         case "radius":
-            for number, radius in enumerate(radii):
+            for number, radius in radii.items():
                 yield {"number": number, "radius": radius}, frames[frames["radius"] == number]
         case _:
             yield {}, frames
@@ -205,7 +218,7 @@ def _row(
     times: SoftTimes,
     row: Mapping[str, Any],
     metrics: Sequence[str],
-    radii: int,
+    lights: Sequence[int],
 ) -> dict[str, Any]:
     """A method's row: `method`, `label` and `metrics`."""
     own = frames[frames["method"] == row["method"]]
@@ -216,7 +229,7 @@ def _row(
     if "mse" in metrics:
         values |= mean_with_interval(by_frame(own, OFF_EDGES), OFF_EDGES)
     if "time" in metrics:
-        values["time"] = float(np.mean([cost(times, row["method"], k)["ms"] for k in range(radii)]))
+        values["time"] = float(np.mean([cost(times, row["method"], k)["ms"] for k in lights]))
     if "temporal_error" in metrics:
         values |= _in_sequences(own)
     return values
@@ -268,13 +281,17 @@ def _cells(
 
 
 def _describe_frames(
-    soft: SoftFrames, metrics: Sequence[str], measured: Sequence[str], by: str | None
+    soft: SoftFrames,
+    metrics: Sequence[str],
+    measured: Sequence[str],
+    lights: Sequence[int],
+    by: str | None,
 ) -> list[str]:
     if not {*frame_metrics("soft")} & {*metrics}:
         return []
-    about, radii = soft.about, soft.radii
+    about, radii = soft.about, [soft.radii[number] for number in lights]
     frames = soft.errors[soft.errors["scene"].isin(measured)]
-    first = frames[(frames["metric"] == "mse") & (frames["radius"] == 0)]
+    first = frames[(frames["metric"] == "mse") & (frames["radius"] == lights[0])]
     count, scenes = first.groupby("method").size().max(), [*first["scene"].unique()]
     units = "95 % over the frames of each scene" if by == "scene" else describe_units(scenes, count)
     return [

@@ -49,9 +49,9 @@ class Settings(AnyClaim):
         description="of `table`: numbers of the frame set's radii, from 0; the claim must hold at all "
         "of them; without it the mean over all is compared",
     )
-    over: Literal["all", "unseen"] = Field(
+    over: Literal["all", "trained", "unseen"] = Field(
         "all",
-        description="of `table`: which of its scenes count, all or those that no network trains on",
+        description="of `table`: which of its scenes count, all, those of the frame set's `scenes` or of its `unseen`",
     )
     again: setting_types.again(Name) = Field(
         {},
@@ -130,7 +130,9 @@ class Settings(AnyClaim):
         named = filter(is_network, self._table_methods())
         networks = screen_networks.all_seeds(config, named, [*self.again.items()])
         frame_set = config.frame_sets[config.tables[self.table].frame_set]
-        scenes = frame_set.unseen if self.over == "unseen" else None
+        scenes = {"trained": frame_set.scenes, "unseen": getattr(frame_set, "unseen", None)}.get(
+            self.over
+        )
         return claim | {
             "networks": networks,
             "bases": frames.bases(config, networks),
