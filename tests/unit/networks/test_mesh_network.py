@@ -20,13 +20,24 @@ from neural_shadows.networks.object_space.sphere_rays import sphere_rays
 from neural_shadows.networks.weight_file import load_network, save_tensors
 from neural_shadows.representations.depths import LIT
 from neural_shadows.representations.meshes.coded_mesh import coded, decoded
-from neural_shadows.representations.meshes.decimation import decimated
+from neural_shadows.representations.meshes.decimation import decimated, without_flaps
 from neural_shadows.running.module_graph import PACKAGE
 
 
 def build_network(shape: trimesh.Trimesh, tmp_path, triangles=None, bits=16, stored="packed"):
     settings = {"encoding": "mesh", "triangles": triangles, "bits": bits, "stored": stored}
     return reloaded(laid_out(shape, tmp_path, settings), tmp_path, settings)
+
+
+def test_halves_of_flaps_do_not_hinder_decimation():
+    """Triangles on an edge of a closed mesh go, those of a closed and of an open one stay."""
+    closed = bumpy_sphere(3)
+    count, faces = len(closed.vertices), closed.faces
+    first, second = faces[7, :2]
+    assert len(without_flaps(np.vstack([faces, [[first, second, count]]]))) == len(faces)
+    assert np.array_equal(without_flaps(faces), faces)
+    rim = faces[closed.triangles_center[:, 2] > 0]
+    assert np.array_equal(without_flaps(rim), rim)
 
 
 @pytest.mark.parametrize(

@@ -17,9 +17,8 @@ def decimated(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Decimate to a number of triangles by quadric-error edge collapses.
 
-    Garland and Heckbert 1997, by fast-simplification. Where no edge can be collapsed without
-    turning a face more may remain, and a line is printed: the Stanford dragon, with 2,260 edges of
-    more than two faces, ends at 4,900.
+    Garland and Heckbert 1997, by fast-simplification, after `without_flaps`. Where no edge can be collapsed
+    without turning a face more may remain, and a line is printed.
 
     Args:
         vertices: (V, 3) in [−1, 1]; faces: (F, 3).
@@ -31,6 +30,8 @@ def decimated(
         InputError: no triangles left.
     """
     aggressiveness, before = CAREFUL, np.inf
+    if triangles < len(faces):
+        faces = without_flaps(faces)
     while triangles < len(faces) < before:
         before = len(faces)
         vertices, faces = fast_simplification.simplify(
@@ -45,3 +46,21 @@ def decimated(
             file=progress.TERMINAL,
         )
     return vertices, faces
+
+
+def without_flaps(faces: np.ndarray) -> np.ndarray:
+    """Drop faces with an edge of their own and one of more than two faces.
+
+    Such are the halves of flaps that cleaning leaves. Edges about them cannot be collapsed: with its 1,281 the
+    Stanford dragon went down to 14,115 triangles carefully, and 6,000 of 9 bits took 12.4 KiB for 6.3, with twice
+    as many wrong shadow rays. Without them none of 60,000 rays was another.
+
+    Args:
+        faces: (F, 3).
+    """
+    edges = np.sort(faces[:, [[0, 1], [1, 2], [2, 0]]], axis=2).reshape(-1, 2).astype(np.int64)
+    _, place, uses = np.unique(
+        edges @ [faces.max() + 1, 1], return_inverse=True, return_counts=True
+    )
+    uses = uses[place].reshape(-1, 3)
+    return faces[~((uses == 1).any(axis=1) & (uses > 2).any(axis=1))]
