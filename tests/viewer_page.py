@@ -79,7 +79,7 @@ def make_viewer(folder: Path, settings=NETWORKS, shape=None, light=SPHERE_OF_LIG
         scene=scene,
         frames={"width": 300, "height": 200, "view_sets": ["shadow", "surface"], "seed": 3},
         views=1,
-        about={"mesh_name": "bumps", "procedural": False, "seed": 3},
+        about={"mesh_name": "bumps", "procedural": False, "seed": 3, "least_shadow": 0.0},
         run={"scale": "test", "seed": 3, "width": 300, "height": 200, "reference": "exact"},
     )
     restored = trimesh.Trimesh(

@@ -93,7 +93,7 @@ class Layout:
             scene = self.mesh_scene(name)
             generated = "generate" in scene["mesh"]
             about[name] = {"mesh_name": scene["mesh_name"], "procedural": generated}
-            about[name]["seed"] = scene["seed"]
+            about[name] |= {"seed": scene["seed"], "least_shadow": scene["least_shadow"]}
         return about
 
     def mesh_source(self, scene: str) -> str:

@@ -37,6 +37,7 @@ class SceneInfo(TypedDict):
     mesh_name: str
     procedural: bool  # a mesh built from a description
     seed: int  # of the viewpoints
+    least_shadow: float  # share of a view's pixels
 
 
 class SceneSettings(TypedDict):

@@ -77,7 +77,9 @@ def describe_mesh(mesh: MeshReport, scene: SceneInfo) -> str:
 
 def describe_scene(name: str, mesh: MeshReport, scene: SceneInfo) -> str:
     """Describe a scene's mesh and the seed of its viewpoints."""
-    return f"Mesh of {name}: {describe_mesh(mesh, scene)}; seed {scene['seed']}."
+    least = scene["least_shadow"]
+    rule = f", views with shadow on {least:.0%} of their pixels or more (ours)" if least else ""
+    return f"Mesh of {name}: {describe_mesh(mesh, scene)}; seed {scene['seed']}{rule}."
 
 
 def describe_shadows(scene: str, leaks: pd.DataFrame) -> str:
