@@ -163,5 +163,5 @@ def test_soft_shadows_alone_take_no_training():
     with read_rules({"only": "soft_shadows"}) as workflow:
         planned = plan(workflow.globals["LAYOUT"], workflow.rules)
     rules = Counter(planned["jobs"][index]["rule"] for index in planned["targets"][EVERYTHING])
-    assert rules["table"] == 7 and rules["claims"] == 1 and rules["evaluate"] > 100
+    assert rules["table"] == 8 and rules["claims"] == 1 and rules["evaluate"] > 100
     assert rules["restore_weights"] == 4 and "train" not in rules
