@@ -99,10 +99,12 @@ class Settings(MethodsTable):
         super().check(config, key)
         if self.over == "unseen" and not getattr(config.frame_sets[self.frame_set], "unseen", ()):
             raise ValueError(f"{key}.over: frame_sets.{self.frame_set} has no `unseen`")
-        radii = len(getattr(config.frame_sets[self.frame_set], "radii", self.lights or ()))
-        if beyond := [number for number in self.lights or () if number >= radii]:
+        radii = getattr(config.frame_sets[self.frame_set], "radii", None)  # none of a user's arrays
+        beyond = [] if radii is None else [n for n in self.lights or () if n >= len(radii)]
+        if beyond:
             raise ValueError(
-                f"{key}.lights: {beyond[0]} is not below {radii}, the number of radii of {self.frame_set!r}"
+                f"{key}.lights: {beyond[0]} is not below {len(radii)}, the number of radii of "
+                f"{self.frame_set!r}"
             )
 
 
