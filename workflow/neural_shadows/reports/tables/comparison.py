@@ -98,17 +98,12 @@ def table(
         unnamed = (
             "" if scene["procedural"] else ", of a resolution of its mesh that it does not name"
         )
-        notes.append(f"*thesis*: its printed number{unnamed}.")
+        notes += [f"*thesis*: its printed number{unnamed}.", SLOPE_BIAS]
     elif published:
         notes.append(f"The thesis did not measure the mesh {mesh['name']}: none of its numbers.")
     notes += [
         *quality_cells.describe_quality(table, labels.get(against)),
         phrases.describe_shadows(name, quality.null_leaks(read_view_metrics(metrics))),
-        *(
-            [SLOPE_BIAS]
-            if any(row["method"].startswith("shadow_map") for row in rows) and published
-            else []
-        ),
         *phrases.describe_biases(rows, read_biases(rows, depth_biases)),
         phrases.describe_scene(name, mesh, scene),
         *map(phrases.describe_training, records),
