@@ -68,7 +68,7 @@ def times(
                 works = {
                     name: partial(_answer, method, constants=chosen[name][k], radius=radius)
                     for name, method in timed.items()
-                    if k == 0 or method.of_radius
+                    if method.changes_at(chosen[name], k)
                 }
                 # What is compiled, and what a method makes of a scene and a size: a point light's may be
                 # another path than that of all others. Cones through fields took five times as long at first.

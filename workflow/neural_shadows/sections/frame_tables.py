@@ -1,6 +1,6 @@
 """Base classes of tables on frame sets."""
 
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
@@ -14,6 +14,18 @@ from neural_shadows.sections.networks import ScreenNetworkName
 from neural_shadows.sections.own_frames import OwnFrames, lacking
 from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.base import Name, check_among, of_another_kind
+
+# Scenes of a frame set whose test frames count.
+OfScenes = Annotated[
+    Literal["trained", "unseen"],
+    Field(description="whose test frames: those of the set's `scenes` or of its `unseen`"),
+]
+OfAnyScenes = Annotated[
+    Literal["all", "trained", "unseen"],
+    Field(
+        description="whose test frames: those of all the set's scenes, of its `scenes` or of its `unseen`"
+    ),
+]
 
 
 class FramesTable(AnyTable):

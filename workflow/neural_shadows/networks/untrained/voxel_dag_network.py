@@ -32,8 +32,8 @@ class VoxelDagNetwork(UntrainedNetwork):
         surface: `solid`, the voxels enclosed but not touched by the surface; or `sheet`, the
             touched ones. The latter stand out from the object by up to a voxel, so that it shadows
             itself: on the Stanford dragon at 512³, 27.7 dB with the best depth bias, the former
-            32.4 dB with none. To a ray from outside both together equal the latter. All error of the former is
-            light leak: voxels that are mostly inside would leave less, and are not told apart here.
+            32.4 dB with none. To a ray from outside both together equal the latter. The former lies within
+            the object, so that all its error is light leak: touched voxels that are mostly inside are left out, too.
     """
 
     def __init__(self, *, resolution: int, surface: str):

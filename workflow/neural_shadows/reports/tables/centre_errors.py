@@ -14,7 +14,7 @@ from neural_shadows.reports.data.frame_means import OFF_EDGES, describe_units, m
 from neural_shadows.reports.data.lights import light_names, radii_of, unit_of
 from neural_shadows.reports.data.quality_cells import metric_column
 from neural_shadows.reports.data.table import Table
-from neural_shadows.sections.frame_tables import MethodsTable
+from neural_shadows.sections.frame_tables import MethodsTable, OfScenes
 from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.base import Name
 
@@ -29,9 +29,7 @@ class Settings(MethodsTable):
     methods: list[Name] = Field(
         min_length=2, description="as those of `soft_methods`, `exact_centre` among them"
     )
-    over: Literal["trained", "unseen"] = Field(
-        "trained", description="whose test frames: those of the set's `scenes` or of its `unseen`"
-    )
+    over: OfScenes = "trained"
 
     def methods_shown(self) -> list[str]:
         return self.methods

@@ -26,8 +26,7 @@ from neural_shadows.settings.records import Row, Run, SceneInfo
 
 PRINTED = THESIS_METRICS
 SLOPE_BIAS = (
-    "Shadow maps are square and have a bias by the slope, 0.5 + 0.75 tan θ texels and 20 at most; of few texels "
-    "they err less than printed, so networks are beside stronger maps than in the thesis."
+    "Shadow maps are square and have a bias by the slope, 0.5 + 0.75 tan θ texels and 20 at most."
 )
 
 

@@ -118,8 +118,8 @@ def table(
     }
     notes = [
         "Over a scene's views [95 % bootstrap interval]. stored: bytes of the weight file, 4 N² "
-        "for a shadow map, 2 N² with 16 bits; 4 of each weight of the thesis's network, which needs 2 where it is evaluated "
-        "in bfloat16. coded: entropy-coded, a mesh by Draco, a field's "
+        "for a shadow map, 2 N² with 16 bits; 4 of each weight of the thesis's network, of which 2 would do, but for its "
+        "last layer, where it is evaluated in bfloat16. coded: entropy-coded, a mesh by Draco, a field's "
         "differences by LZMA; all others are packed bits. resident: memory during evaluation. "
         "build: from the mesh file to the finished network, as the sum of the jobs for its mesh, rays, "
         "labels and training. own: median of the method's evaluation alone. "

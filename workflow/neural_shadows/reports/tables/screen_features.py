@@ -21,7 +21,7 @@ from neural_shadows.reports.data.table import (
     numbers,
     with_ends,
 )
-from neural_shadows.sections.frame_tables import ColumnsTable
+from neural_shadows.sections.frame_tables import ColumnsTable, OfAnyScenes
 from neural_shadows.settings.records import FeatureShare
 
 LEAST_SHARE = 0.015  # of sensitivity, of the paper's features (3.2)
@@ -34,10 +34,7 @@ class Settings(ColumnsTable):
         None, pattern=r"^nsm\.s1$", description="`nsm.` and the paper's number of this table"
     )
     kind: Literal["screen_features"] = Field(description="`screen_features`")
-    over: Literal["all", "trained", "unseen"] = Field(
-        "all",
-        description="whose test frames: those of all the set's scenes, of its `scenes` or of its `unseen`",
-    )
+    over: OfAnyScenes = "all"
 
 
 def params(layout: Layout, table: str) -> dict[str, Any]:

@@ -36,7 +36,7 @@ from neural_shadows.reports.data.table import (
     with_ends,
 )
 from neural_shadows.sections.experiments import ScreenExperimentName
-from neural_shadows.sections.frame_tables import FramesTable
+from neural_shadows.sections.frame_tables import FramesTable, OfAnyScenes
 from neural_shadows.sections.networks import ScreenNetworkName
 from neural_shadows.settings.base import Model, Name
 from neural_shadows.settings.records import Profile
@@ -69,10 +69,7 @@ class Settings(FramesTable):
         None, description="`nsm.steps`, the paper's printed numbers"
     )
     kind: Literal["screen_steps"] = Field(description="`screen_steps`")
-    over: Literal["all", "trained", "unseen"] = Field(
-        "all",
-        description="whose test frames: those of all the set's scenes, of its `scenes` or of its `unseen`",
-    )
+    over: OfAnyScenes = "all"
     steps: dict[Name, Step] = Field(min_length=1, description="by the paper's names, in order")
 
     def methods_shown(self) -> list[str]:

@@ -33,7 +33,7 @@ from neural_shadows.reports.data.quality_cells import metric_column
 from neural_shadows.reports.data.soft_costs import cost, describe_times
 from neural_shadows.reports.data.soft_frames import SoftFrames, describe_trainings
 from neural_shadows.reports.data.table import Column, Table, filled, numbers
-from neural_shadows.sections.frame_tables import MethodsTable
+from neural_shadows.sections.frame_tables import MethodsTable, OfScenes
 from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.base import Model, Name, Text, section_or
 from neural_shadows.settings.records import SoftTimes
@@ -66,9 +66,7 @@ class Settings(MethodsTable):
     methods: list[section_or(SummaryRow, "method")] = Field(
         min_length=1, description="in the table's order"
     )
-    over: Literal["trained", "unseen"] = Field(
-        "trained", description="whose test frames: those of the set's `scenes` or of its `unseen`"
-    )
+    over: OfScenes = "trained"
     by: Literal["scene", "radius"] | None = Field(
         None, description="a part of the table for each; without it one row a method"
     )

@@ -52,8 +52,8 @@ def without_flaps(faces: np.ndarray) -> np.ndarray:
     """Drop faces with an edge of their own and one of more than two faces.
 
     Such are the halves of flaps that cleaning leaves. Edges about them cannot be collapsed: with its 1,281 the
-    Stanford dragon went down to 14,115 triangles carefully, and 6,000 of 9 bits took 12.4 KiB for 6.3, with twice
-    as many wrong shadow rays. Without them none of 60,000 rays was another.
+    Stanford dragon's 6,000 triangles of 9 bits took 12.4 KiB for 6.3, with twice as many wrong shadow rays. Of
+    23,000 shadow rays to the whole mesh none is another without them.
 
     Args:
         faces: (F, 3).
