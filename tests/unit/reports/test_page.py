@@ -8,6 +8,7 @@ from soft_pictures import write_soft_pictures
 
 from neural_shadows.reports.data import run_command
 from neural_shadows.reports.data.table import write_table
+from neural_shadows.reports.page.blocks import pictures_once
 
 
 @pytest.fixture(scope="module")
@@ -27,7 +28,7 @@ def test_page_asks_for_nothing_outside_itself(text):
 
 
 def test_text_from_the_config_is_shown_not_run(text):
-    assert HOSTILE not in text and text.count("<script") == 2
+    assert HOSTILE not in text and text.count("<script") == 3
     (data,) = re.findall(r'<script type="application/json">(.+?)</script>', text)
     data = json.loads(data)
     assert data["title"].startswith(f"dragon: {HOSTILE}")
@@ -137,6 +138,18 @@ def test_soft_shadows_are_compared_and_led_to_from_their_tables(tmp_path):
     assert 'href="#compare-soft-rivals"' in section
     # Hard shadows have a FLIP map, soft ones errors by their size.
     assert text.count("FLIP map</option>") == text.count("visibility alone</option>") == 1
+
+
+def test_a_picture_of_two_comparisons_is_on_the_page_once():
+    first, second = "data:image/webp;base64,AA==", "data:image/webp;base64,BB=="
+    data = [
+        {"views": [{"map": first}, {"map": second}]},
+        {"name": "data", "views": [{"map": first}]},
+    ]
+    numbered, pictures = pictures_once(data)
+    assert pictures == [first, second]
+    maps = [view["map"]["picture"] for one in numbered for view in one["views"]]
+    assert maps == [0, 1, 0] and numbered[1]["name"] == "data"
 
 
 def test_the_command_of_the_run(tmp_path, monkeypatch):

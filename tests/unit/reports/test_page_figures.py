@@ -49,6 +49,11 @@ def test_a_drawing_in_the_page_is_whole_and_follows_its_colours(tmp_path):
     assert ">a &lt; b</text>" in html and not re.search(r">\s|\d\.\d{3}|font-family", html)
     assert "fill: var(--paper)" in html and "#ffffff" not in html
     assert "stroke: #0072b2" in html and "stroke: var(--soft)" in html
+    drawn = ElementTree.fromstring((tmp_path / "f.svg").read_bytes())
+    painted = ("path", "use", "text")  # whose order says what covers what
+    orders = [[e.tag.split("}")[-1] for e in tree.iter()] for tree in (drawn, root)]
+    before, after = ([tag for tag in order if tag in painted] for order in orders)
+    assert before == after and "<g>" not in html
 
 
 def test_a_chart_s_own_data_can_be_saved(tmp_path):

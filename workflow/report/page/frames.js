@@ -3,9 +3,11 @@
 // Frames side by side: two methods under a divider. `paintHard` and `softPainter` put a method's
 // picture into a layer of the stage.
 const LARGEST_ZOOM = 16;
+const PICTURES = JSON.parse(document.getElementById("pictures").textContent);
+const withPictures = (key, value) => value?.picture === undefined ? value : PICTURES[value.picture];
 
 for (const article of document.querySelectorAll("article.compare")) {
-  const data = JSON.parse(article.querySelector("script").textContent);
+  const data = JSON.parse(article.querySelector("script").textContent, withPictures);
   const find = (selector) => article.querySelector(selector);
   const stage = find(".stage"), divider = find(".divider"), over = find(".over");
   const view = find(".view"), left = find(".left"), right = find(".right"), shown = find(".shown");

@@ -93,7 +93,19 @@ def inline_svg(content: bytes, name: str, title: str) -> Markup:
         for key, value in [*element.attrib.items()]:
             del element.attrib[key]
             element.set(key.removeprefix(XLINK), _renamed(key, value, name))
+    _dissolve_groups(root)
     return Markup(ElementTree.tostring(root, encoding="unicode"))
+
+
+def _dissolve_groups(element: ElementTree.Element) -> None:
+    """Put the children of groups that say nothing in their places: three stood around each tick."""
+    for child in element:
+        _dissolve_groups(child)
+    children = [*element]
+    for child in children:
+        element.remove(child)
+        plain = child.tag == "g" and not child.attrib
+        element.extend([*child] if plain else [child])
 
 
 def _said(text: str | None) -> str | None:

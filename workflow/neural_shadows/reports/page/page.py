@@ -17,7 +17,7 @@ from neural_shadows.reports.data.inputs import read_by_folder
 from neural_shadows.reports.data.method_look import look_of_kind
 from neural_shadows.reports.data.phrases import describe_mesh
 from neural_shadows.reports.data.run_command import run_command
-from neural_shadows.reports.page.blocks import lossy_uri
+from neural_shadows.reports.page.blocks import lossy_uri, pictures_once
 from neural_shadows.reports.page.chapters import chapters as page_chapters
 from neural_shadows.reports.page.claim_cards import budget, by_source, counted, read_cards
 from neural_shadows.reports.page.figure_blocks import figure_blocks, themed
@@ -106,6 +106,12 @@ def write_page(
     # Notes of several tables are shown once.
     notes = Counter(note for block in [claims, *blocks] if block for note in block.notes)
     facts = run_facts(run, described, trainings, lpips_json, benchmarks)
+    comparisons, pictures = pictures_once(
+        [
+            *hard_comparisons(references, visibilities, metrics, rows, described),
+            *soft_comparisons(soft_parts, soft_answers, soft_pictures),
+        ]
+    )
     folder = template[0].parent
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(folder),
@@ -136,10 +142,8 @@ def write_page(
         ],
         poster=_poster(viewers[0].with_suffix(".png")) if viewers else None,
         missing=missing,
-        comparisons=[
-            *hard_comparisons(references, visibilities, metrics, rows, described),
-            *soft_comparisons(soft_parts, soft_answers, soft_pictures),
-        ],
+        comparisons=comparisons,
+        pictures=pictures,
         chapters=page_chapters(blocks, drawings, chapters),
         shared_notes=[note for note, count in notes.items() if count > 1],
     )
