@@ -164,7 +164,7 @@ def test_panels_name_points_and_methods_without_a_cost(drawn):
     printed = "Thesis's network, as printed"
     lines = [
         {"No shadow", f"{printed} {note}"}
-        for note in ("(of another LPIPS network)", "(mean, not pooled)")
+        for note in ("(of another LPIPS network)", "(pooled or mean)")
     ]
     assert all(line <= names for row in named for line, names in zip(lines, row))
     stored, own, build = (panels[i, 0] for i in (0, 2, 3))

@@ -71,9 +71,13 @@ def test_boxes_lie_apart_where_methods_err_most_and_no_method_outvotes_the_other
     assert {*boxes} == {(10, 20, 6, 9), (40, 60, 6, 9)}
     counted[:30] = False
     assert choose_boxes([first, second], counted, 6, 9)[0] == (40, 60, 6, 9)
-    # All errors in one place: the second box lies beside the first.
-    (a, b) = choose_boxes([second], np.ones((60, 90), bool), 6, 9)
-    assert abs(a.row - b.row) >= 6 or abs(a.column - b.column) >= 9
+    # All errors in one place: the second box does not show it again, where there is room.
+    second[0, 46:52, 60:69], counted = 0.5, np.ones((60, 90), bool)
+    for rows, windows in ((60, 3), (18, 1)):
+        (a, b) = choose_boxes(
+            [second[:, -rows:, -3 * rows // 2 :]], counted[-rows:, -3 * rows // 2 :], 6, 9
+        )
+        assert abs(a.row - b.row) >= 6 * windows or abs(a.column - b.column) >= 9 * windows
 
 
 def test_strips_show_frames_crops_and_scores_and_long_names_do_not_overlap():

@@ -16,6 +16,7 @@ from neural_shadows.reports.data.method_look import REFERENCE
 VISIBLE_DIFFERENCE = 0.05
 FEW = 0.0005  # of a frame's pixels: a method with fewer wrong ones weighs less
 CROP_SHARES = (0.2, 0.06)  # of the frame's height and width
+APART = 3  # windows from one box's corner to the other's, down or across
 TINT = 0.75  # of an error's colour; the rest is the picture's
 FULL = 0.5  # a soft shadow's error of so much visibility has the whole colour
 
@@ -68,7 +69,8 @@ def choose_boxes(
 ) -> list[Window]:
     """Choose two windows with most of the methods' squared errors.
 
-    Each method's add up to 1, so that no bad one outweighs the others. The windows do not overlap.
+    Each method's add up to 1, so that no bad one outweighs the others. The windows do not overlap, and in
+    a frame that has room they lie `APART`: neighbours show the same shadow twice.
 
     Args:
         errors: (lights, H, W) of each method. counted: (H, W) bool, pixels whose errors count.
@@ -79,11 +81,13 @@ def choose_boxes(
         square = np.where(counted, np.square(error, dtype=np.float64).sum(axis=0), 0)
         interest += square / (square.sum() or 1)
     row, column = _best_window(interest, height, width)
+    high, wide = counted.shape
+    apart = APART if high >= (2 * APART + 1) * height or wide >= (2 * APART + 1) * width else 1
     rows, columns = (
-        (max(0, row - height + 1), row + height),
-        (max(0, column - width + 1), column + width),
+        slice(max(0, corner - apart * size + 1), corner + apart * size)
+        for corner, size in ((row, height), (column, width))
     )
-    other = _best_window(interest, height, width, besides=(slice(*rows), slice(*columns)))
+    other = _best_window(interest, height, width, besides=(rows, columns))
     return [Window(*corner, height, width) for corner in ((row, column), other)]
 
 
