@@ -277,21 +277,21 @@ def test_constants_for_sequences_are_chosen_with_the_history(folder):
     assert chosen.items() > record["radii"][len(RADII) // 2]["constants"].items()
     by_sequence = [
         [
-            in_motion(frames, method, [chosen | {"clamp": value}] * len(RADII))
-            for value in method.of_history["clamp"]
+            in_motion(frames, method, [chosen | {"share": value}] * len(RADII))
+            for value in method.of_history["share"]
         ]
         for frames in ([*measured_frames([path], [])] for path in both)
     ]
     errors = [[each["mse_sequence_off_edges"] for each in values] for values in by_sequence]
     assert errors[0] != errors[1]
     best = np.mean(errors, axis=0).argmin()
-    assert chosen["clamp"] == method.of_history["clamp"][best]
+    assert chosen["share"] == method.of_history["share"][best]
     steps = [[*steps_of(measured_frames([path], []))] for path in both]
-    of_share = [
-        sum(squared_error(each, method, chosen | {"share": share}) for each in steps)
-        for share in method.of_history["share"]
+    of_clamp = [
+        sum(squared_error(each, method, chosen | {"clamp": clamp}) for each in steps)
+        for clamp in method.of_history["clamp"]
     ]
-    assert chosen["share"] == method.of_history["share"][np.argmin(of_share)]
+    assert chosen["clamp"] == method.of_history["clamp"][np.argmin(of_clamp)]
     tried = [each["mse"] for each in record["history"]["tried"]]
     assert tried == pytest.approx(np.mean(errors, axis=0))
     assert len(set(tried)) > 3  # the constant has an effect

@@ -13,7 +13,7 @@ class Denoiser:
     """A denoiser of `method_parts.denoisers`, with its ray counts.
 
     Args:
-        tried, joint, rounds, of_history: its constants, see `Method`. history: uses previous frames of
+        tried, joint, of_history: its constants, see `Method`. history: uses previous frames of
             sequences.
     """
 
@@ -22,7 +22,6 @@ class Denoiser:
     counts: Sequence[int] = (1, 2, 4)
     tried: Mapping[str, Sequence[float]] = field(default_factory=dict)
     joint: bool = False
-    rounds: int = 1
     history: bool = True
     of_history: Mapping[str, Sequence[float]] = field(default_factory=dict)
     package: str | None = None
@@ -45,10 +44,11 @@ _SIGMA = (0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.3)
 # In print three passes, of one ray with a history; of eight rays without one two or one leave up to 30 % less.
 _PASSES = (0, 1, 2, 3, 4)
 # In print 0.05 and 0.5. Where lights, cameras and objects move by 0.4 % of the scene's size a frame that clamp
-# left 5 times what 0.03 leaves (one ray, validation sequences).
+# left 5 times what 0.03 leaves (one ray, validation sequences). A share is chosen after the clamp: before it,
+# one of 1, no history, was the best, and then the clamp has no effect.
 _FFX_HISTORY = {
-    "share": (0.05, 0.1, 0.2, 0.4, 0.7, 1.0),
-    "clamp": (0.03, 0.06, 0.125, 0.25, 0.5, 1.0, 2.0),
+    "clamp": (0.0, 0.03, 0.06, 0.125, 0.25, 0.5, 1.0, 2.0),
+    "share": (0.0, 0.05, 0.1, 0.2, 0.4, 0.7, 1.0),
 }
 DENOISERS = {
     "svgf": Denoiser(
@@ -57,8 +57,8 @@ DENOISERS = {
         (1, 2, 4, 5, 30),  # NSM has 5, kernel prediction 30
         # In print σ is 4 and passes are five [4.3, 4.4]; of visibility fewer left 10 to 44 % less, by σ_z of 1.
         # One after the other, the two left up to 1.8 times what they leave together. σ of 64 and 128 leave 1.6 and
-        # 2.2 % less than 32 at most (four rays, validation frames): the weight is all but gone by then.
-        {"sigma_luminance": (1.0, 2.0, 4.0, 8.0, 16.0, 32.0), "passes": (0, 1, 2, 3, 5)},
+        # 2.2 % less than 32 at most (four rays, validation frames): the weight is all but gone at 64.
+        {"sigma_luminance": (0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0), "passes": (0, 1, 2, 3, 5)},
         joint=True,
         of_history={"share": (0.1, 0.2, 0.4, 0.7, 0.85, 1.0)},
     ),
@@ -74,7 +74,7 @@ DENOISERS = {
         "SIGMA-like",
         _look("SIGMA-like filter", BLUE, "d", "♦", "blurred by the distances to occluders."),
         tried={"reach": (0.12, 0.25, 0.5, 0.7, 1.0, 1.4, 2.0)},
-        of_history={"share": (0.125, 0.25, 0.5, 0.75, 1.0), "clamp": (0.25, 0.5, 1.0, 2.0, 3.0)},
+        of_history={"clamp": (0.25, 0.5, 1.0, 2.0, 3.0), "share": (0.125, 0.25, 0.5, 0.75, 1.0)},
     ),
     "sigma_ffx": Denoiser(
         "SIGMA- and FFX-like",
@@ -85,16 +85,14 @@ DENOISERS = {
             "⬣",
             "blurred by distances, then smoothed within surfaces.",
         ),
-        # With the reach first the errors of one and of two rays were up to 18 % larger than of all 64 settings
-        # without passes, under each light of `frames`, with it last none.
+        # One after the other, in two rounds, they left up to 18 % more of one ray (`frames`), with sigma and
+        # passes together and then the reach still 13 %.
         tried={
-            "sigma": _SIGMA,
-            "passes": _PASSES[
-                1:
-            ],  # of none all sigmas are alike, and the next search of one has no hold
-            "reach": (0.0, 0.015, 0.03, 0.06, 0.12, 0.25, 0.5, 1.0),
+            "reach": (0.0, 0.03, 0.06, 0.12, 0.25, 0.5),
+            "sigma": _SIGMA[2:],
+            "passes": _PASSES,
         },
-        rounds=2,
+        joint=True,
         of_history=_FFX_HISTORY,
     ),
     "oidn_fast": Denoiser(
@@ -127,7 +125,6 @@ METHODS = {
         partial(_visibility, samples=count, denoiser=key),
         denoiser.tried,
         joint=denoiser.joint,
-        rounds=denoiser.rounds,
         of_history=denoiser.of_history,
         label=f"{rays_label(count)}, {denoiser.label}",
         package=denoiser.package,

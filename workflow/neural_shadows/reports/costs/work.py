@@ -240,8 +240,8 @@ WORDS |= {
 }
 COUNTED = {"cone": 0.3, "field": 0.7, "pcf": 0.02}
 OTHER = 0.05
-SHARED_ONE_BY_ONE = 1.5  # of the SIGMA- and FFX-like filters, beside what all searches take
 SHARED = 3.7  # settings of the SVGF-like filter share their passes: 7.5 s in place of 28 s a frame
+SHARED_FIRST = 10.0  # those of the SIGMA- and FFX-like ones also rays and the picture of the first
 # Settings of a history share rays and look-ups: four took 0.31 to 0.54 of their time without that.
 SHARED_BY_A_HISTORY = 0.45
 
@@ -274,11 +274,11 @@ def tune(layout: Layout, frame_set: str, group: str, method: str) -> Work:
     # Those of a last filter answer once.
     own = {name: values for name, values in tuned.constants.items() if name not in tuned.of_last}
     counts = [len(values) for values in own.values()]
-    # On frames a search tries nothing twice: of MSSM's constants a second round half as many settings as the first.
-    one_by_one = (1 + sum(counts) - len(counts) + bool(tuned.of_last)) * (1 + tuned.rounds) / 2
+    # On frames a search tries nothing twice: of PCSS's constants a second round takes 0.2 to 0.4 of the first's time.
+    one_by_one = (1 + sum(counts) - len(counts) + bool(tuned.of_last)) * (3 + tuned.rounds) / 4
     tried = math.prod(counts) if tuned.joint else one_by_one
     if "passes" in tuned.constants:
-        tried /= SHARED if tuned.joint else SHARED_ONE_BY_ONE
+        tried /= SHARED * (SHARED_FIRST if "reach" in tuned.constants else 1)
     answers = tried * pixels * _lights(layout, frame_set)
     if frame_methods.has_history(method):
         in_sequences = len(frame_sets.tuned_sequences(layout, frame_set))
