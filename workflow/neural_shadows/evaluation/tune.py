@@ -18,6 +18,8 @@ from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 from neural_shadows.settings.records import SceneSettings
 
+_GAIN = 1.01  # of an error by the last of a constant's candidates beside the one before
+
 
 def tune(
     frames: list[Path],
@@ -211,8 +213,8 @@ def _at_end(
 ) -> bool:
     """Check for a best value at an end of its candidates.
 
-    If its neighbour is worse, the other constants as chosen; a bound of its own, as 0 and a `share` of 1
-    are, is no end, nor is one of two.
+    If its neighbour is worse by `_GAIN`, the other constants as chosen: where it is not, errors hardly change any
+    more. A bound of its own, as 0 and a `share` of 1 are, is no end, nor is one of two.
     """
     others = settings[chosen] | {name: None}
     along = [e for constants, e in zip(settings, errors) if constants | {name: None} == others]
@@ -221,7 +223,7 @@ def _at_end(
     bound = not value or (name == "share" and value == 1)
     if len(along) < 3 or bound or best not in (0, len(along) - 1):
         return False
-    return bool(along[1 if best == 0 else -2] > along[best])
+    return bool(along[1 if best == 0 else -2] > _GAIN * along[best])
 
 
 if "snakemake" in globals():
