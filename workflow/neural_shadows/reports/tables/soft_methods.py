@@ -282,11 +282,8 @@ def _describe_flicker(
 _BOUNDS = {
     ("light", 0): "A `light` of 0 is Open Image Denoise's network for colours of any range.",
     ("width", 0): "A `width` of 0 is no filter.",
-    ("passes", 0): "No `passes` filter nothing.",
-    (
-        "share",
-        0,
-    ): "A `share` of 0 takes nothing of frames after the first eight but bounds of the history.",
+    ("passes", 0): "With 0 `passes` nothing is filtered.",
+    ("share", 0): "With a `share` of 0 frames after the eighth only bound the history.",
     ("clamp", 0): "A `clamp` of 0 puts the mean of the pixels around in the history's place.",
     ("share", 1): "A `share` of 1 takes the new frame alone, without the history.",
 }
