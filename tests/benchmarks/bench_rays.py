@@ -28,7 +28,7 @@ from neural_shadows.scenes.tracing import NEARLY_ALL, EmbreeSingly, Tracer
 SCENE = {"generate": "room", "seed": 2026, "inserted": {}}
 RADII = (0.0625, 0.25, 1.0)  # of the lights, metres
 SAMPLES = (1, 4, 16)  # rays of a pixel
-GRAZING = 1e-6  # share of rays on which the two may differ: one of 8.3 million did
+DIFFERING = 1e-6  # share of rays on which the two may differ: one of 8.3 million did
 PACKETS, SINGLE = "packets", "embreex's single rays"
 
 SAMPLING = {
@@ -42,7 +42,7 @@ PEER_RAYS = 100_000
 
 
 def packet_rows(quick: bool) -> list[Row]:
-    """Rays a second of one frame of a room, on one thread; both give the same but for `GRAZING`, or it stops.
+    """Rays a second of one frame of a room, on one thread; both give the same but for `DIFFERING`, or it stops.
 
     Shadow rays to lights of three sizes and to a parallel one, first hits of the camera's rays, and
     rays that have nothing in common.
@@ -62,7 +62,7 @@ def packet_rows(quick: bool) -> list[Row]:
             for name, rays in ((PACKETS, packets), (SINGLE, singly))
         }
         for ours, theirs in zip(*(np.atleast_2d(work()) for work in works.values())):
-            assert np.count_nonzero(ours != theirs) <= GRAZING * len(points)
+            assert np.count_nonzero(ours != theirs) <= DIFFERING * len(points)
         rate = {name: len(points) / value for name, value in median_seconds(works, rounds).items()}
         result.append(Row(stage, "cpu x1", rate[PACKETS], "rays/s", None, SINGLE, rate[SINGLE]))
 

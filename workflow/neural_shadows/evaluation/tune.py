@@ -18,7 +18,8 @@ from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 from neural_shadows.settings.records import SceneSettings
 
-_GAIN = 1.01  # of an error by the last of a constant's candidates beside the one before
+# An end of candidates counts where the one before it errs by over 1 % more: σ of 64 beside 32 hardly differs.
+_GAIN = 1.01
 
 
 def tune(

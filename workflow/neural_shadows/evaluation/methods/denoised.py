@@ -44,8 +44,8 @@ _SIGMA = (0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.3)
 # In print three passes, of one ray with a history; of eight rays without one two or one leave up to 30 % less.
 _PASSES = (0, 1, 2, 3, 4)
 # In print 0.05 and 0.5. Where lights, cameras and objects move by 0.4 % of the scene's size a frame that clamp
-# left 5 times what 0.03 leaves (one ray, validation sequences). A share is chosen after the clamp: before it,
-# one of 1, no history, was the best, and then the clamp has no effect.
+# left 5 times what 0.03 leaves (one ray, validation sequences). The clamp is chosen first: at the middle
+# clamp the best share was 1, which is no history, and then no clamp has an effect.
 _FFX_HISTORY = {
     "clamp": (0.0, 0.03, 0.06, 0.125, 0.25, 0.5, 1.0, 2.0),
     "share": (0.0, 0.05, 0.1, 0.2, 0.4, 0.7, 1.0),
@@ -89,7 +89,11 @@ DENOISERS = {
         # passes together and then the reach still 13 %.
         tried={
             "reach": (0.0, 0.03, 0.06, 0.12, 0.25, 0.5),
-            "sigma": (*_SIGMA[2:], 16.0, 32.0),  # of four rays on `nsm` 11.3 was the best
+            "sigma": (
+                *_SIGMA[2:],
+                16.0,
+                32.0,
+            ),  # up to 11.3, that was the best of four rays on `nsm`
             "passes": _PASSES,
         },
         joint=True,

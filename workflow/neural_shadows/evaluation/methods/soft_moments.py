@@ -3,8 +3,9 @@
 Moment soft shadow mapping (Peters et al. 2017): as PCSS, but the blockers' mean depth and the shadow are
 both computed from a window's mean moments, so that any width costs the same. Constants are those of PCSS, of
 moments, and `least`, a share of blockers below which their mean depth is not trusted; `scale` is the filter's
-alone. A point light has the four texels round each receiver. With two moments (VSSM, Yang et al. 2010) windows in which a
-receiver is not flat need a division; without it the error under the largest light of `windows` was 5.7 times that of four moments.
+alone. A point light has the four texels round each receiver. With two moments (VSSM, Yang et al. 2010)
+windows in which a receiver is not flat need a division; without it the error under the largest light of
+`windows` was 5.7 times that of four moments.
 """
 
 from collections.abc import Callable
