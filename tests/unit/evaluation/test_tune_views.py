@@ -5,6 +5,7 @@ import trimesh
 from evaluated import SCENE, make_evaluated
 
 from neural_shadows.evaluation import ray_network, views
+from neural_shadows.evaluation import tune as tune_stage
 from neural_shadows.evaluation.method import BIASES
 from neural_shadows.evaluation.tune import tune
 from neural_shadows.files.whole_files import read_json
@@ -75,6 +76,13 @@ def test_an_end_of_the_search_is_told(find, capsys):
     found = find(ShortBall(0.12))
     assert (found["depth_bias"], found["at_end"]) == (BIASES[-1], True)
     assert "the best depth bias, 0.128, ends the search" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(("before", "counts"), [(1.02, True), (1.005, False)])
+def test_an_end_counts_where_errors_still_fall(before, counts):
+    settings = [{"sigma": value} for value in (16.0, 32.0, 64.0)]
+    told = tune_stage._at_end("sigma", (16.0, 32.0, 64.0), settings, [1.5, before, 1.0], 2)
+    assert told == counts
 
 
 def test_a_push_is_found_beside_the_bias(find, capsys):
